@@ -1,0 +1,21 @@
+# Everything comes from Debian 12; scripts/install-packages.sh installs it.
+
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip) # its CMake config names programs that are not installed
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(libjpeg-turbo REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Ceres REQUIRED)
+find_package(TBB REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(GTest REQUIRED)
+find_package(benchmark REQUIRED)

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "weft/core/Result.h"
+#include "weft/reflectance/ReflectanceField.h"
+
+namespace weft {
+
+/// Writes a `.rf.exr` (docs/file-format.md): part `shared`, then one part a view. Written beside its place
+/// and renamed.
+Result<void> writeReflectanceField(const ReflectanceField& field, const std::filesystem::path& path);
+
+/// Reads it back. Fails, with file and reason, on anything that is not such a file; sizes are checked before
+/// memory is taken.
+Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path, const ModelRegistry& models);
+
+}  // namespace weft

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "weft/chunks/State.h"
+
+namespace weft {
+
+/// How a surface looks, as far as the scene graph needs to know: the GL state to draw it with.
+/// weft::materials has the kinds.
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  /// The chunks by slot. Building it touches no GL.
+  virtual const State& state() const = 0;
+
+ protected:
+  Material() = default;
+};
+
+}  // namespace weft

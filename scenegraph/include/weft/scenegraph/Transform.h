@@ -1,0 +1,17 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "weft/scenegraph/NodeCore.h"
+
+namespace weft {
+
+/// Places everything below it: child to parent coordinates, column vectors.
+class Transform : public NodeCore {
+ public:
+  explicit Transform(const glm::mat4& matrix = glm::mat4(1.0f)) : matrix(matrix) {}
+
+  glm::mat4 matrix;
+};
+
+}  // namespace weft

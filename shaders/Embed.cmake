@@ -1,0 +1,9 @@
+# cmake -DOUTPUT=FILE -DSHADERS=a;b -P Embed.cmake: writes the table behind EmbeddedShaders.h.
+set(code "#include \"weft/shaders/EmbeddedShaders.h\"\n\nnamespace weft {\n\nstd::span<const EmbeddedShader> embeddedShaders() {\n  static constexpr EmbeddedShader table[] = {\n")
+foreach(shader ${SHADERS})
+  cmake_path(GET shader FILENAME name)
+  file(READ ${shader} text)
+  string(APPEND code "      {\"${name}\", R\"glsl(${text})glsl\"},\n")
+endforeach()
+string(APPEND code "  };\n  return table;\n}\n\n}  // namespace weft\n")
+file(WRITE ${OUTPUT} "${code}")
