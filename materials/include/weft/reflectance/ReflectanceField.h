@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,17 @@ struct ReflectanceFieldDescription {
   std::string source;             ///< the name of the measurement, for people
   std::string fitReport;          ///< JSON text of the fit's errors, as weft-fit wrote it; may be empty
 };
+
+/// The value, n.l included, that a model's parameters give for light from `light`; 0 below the horizon.
+///
+/// Without the cosine in the model this is RF(l) l.z. With it, lights below the outermost measured ring (z <
+/// lowestLightZ) are evaluated on that ring and scaled by l.z / lowestLightZ, so that the fit is never
+/// extrapolated and still ends at the terminator.
+glm::vec3 evaluateWithCosine(const ReflectanceModel& model, bool hasCosine, float lowestLightZ,
+                             std::span<const float> shared, std::span<const float> view, glm::vec3 light);
+
+/// The smallest z of a set of directions.
+float lowestZ(std::span<const glm::vec3> directions);
 
 /// A fitted material in memory: the parameters of a ReflectanceModel for every texel and view, and the CPU
 /// reference of how they are shaded (paper M eq. 4).

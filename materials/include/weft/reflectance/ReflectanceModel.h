@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,14 +12,14 @@
 
 namespace weft {
 
-/// Whether a model describes luminance, multiplied by one base colour a texel, or three channels of its own.
-enum class ModelColor { Luminance, Rgb };
+/// Whether all views of a texel share one diffuse albedo, as in paper M eq. 1, or each has its own.
+enum class DiffuseAlbedo { Shared, PerView };
 
 /// What a file or a command line says of a model; the registry makes the model from it.
 struct ModelDescription {
   std::string name = "rfnl";
   int lobes = 2;  ///< of the models that have lobes
-  ModelColor color = ModelColor::Luminance;
+  DiffuseAlbedo diffuseAlbedo = DiffuseAlbedo::Shared;
 };
 
 /// The formula RF_v(x, l) of one reflectance model: what its numbers are called and what they evaluate to.
@@ -41,7 +42,7 @@ class ReflectanceModel {
                              glm::vec3 light) const = 0;
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
-  virtual std::vector<std::pair<std::string, std::string>> shaderDefines() const = 0;
+  virtual std::map<std::string, std::string> shaderDefines() const { return {}; }
 };
 
 /// Makes models by name. A value: build your own, or start from builtin() and add to it.
@@ -60,8 +61,5 @@ class ModelRegistry {
  private:
   std::vector<std::pair<std::string, Factory>> factories_;
 };
-
-/// Channel names of the base colour, which models of luminance append to their shared channels.
-std::vector<std::string> baseColorChannels();
 
 }  // namespace weft
