@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "weft/core/Progress.h"
+#include "weft/core/Result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace weft {
+
+/// What every program of Weft ends with.
+enum class ExitCode {
+  Done = 0,
+  BadUsage = 1,
+  BadInput = 2,     ///< or failing I/O
+  BoundMissed = 3,  ///< a quality bound that the user gave
+};
+
+/// What `--help` and `--version` say of a program.
+struct ToolDescription {
+  std::string name;     ///< "weft-fit"
+  std::string purpose;  ///< one sentence
+  std::string example;  ///< one command line
+  std::string version;  ///< WEFT_VERSION
+};
+
+/// What all command line programs share: options, exit codes, messages, progress, `--json`, interruption.
+///
+///     weft::Tool tool({"weft-fit", "Fits ...", "weft-fit wool.zip -o wool.rf.exr", WEFT_VERSION});
+///     tool.options().add_option("INPUT", input, "what to fit")->required();  // include <CLI/CLI.hpp>
+///     return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> { ... });
+///
+/// Every program gets --help, --version, --quiet, --threads and --json.
+class Tool {
+ public:
+  explicit Tool(ToolDescription description);
+  ~Tool();
+
+  /// To add the program's own options to.
+  CLI::App& options();
+
+  /// Parses the command line, then does `work`, and returns the exit code for main(). A failure of `work` is
+  /// printed as "NAME: message" and ends with BadInput; bad options end with BadUsage before `work` starts.
+  /// An interruption (Ctrl-C, SIGTERM) removes what AtomicFile has not committed and ends the program.
+  int run(int argc, const char* const* argv, const std::function<Result<ExitCode>()>& work);
+
+  /// For options that are wrong together: prints the message; return what it returns.
+  ExitCode badUsage(const std::string& message) const;
+
+  /// Prints progress on stderr: on a terminal one line with rate and time left, else a line every 10 s, with
+  /// --quiet nothing. `amount` `unit`s ("texels") are done at fraction 1; 0 prints no rate.
+  Progress progress(std::string label, double amount = 0.0, std::string unit = {}) const;
+
+  bool quiet() const;
+  /// The number of threads that TBB may use.
+  int threads() const;
+  /// Whether `--json` was given, and where its text goes is stdout, which people's output must then leave
+  /// alone.
+  bool jsonOnStdout() const;
+  /// Writes the report of `--json FILE` ("-": stdout); nothing without the option.
+  Result<void> writeJson(const nlohmann::ordered_json& report) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// The largest resident memory of this process so far.
+std::uint64_t peakMemoryBytes();
+
+}  // namespace weft
