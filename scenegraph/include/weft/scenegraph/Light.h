@@ -9,7 +9,7 @@ namespace weft {
 /// Light from its node's origin in all directions: irradiance = intensity / distance^2. glTF: candela.
 class PointLight : public NodeCore {
  public:
-  explicit PointLight(glm::vec3 intensity) : intensity(intensity) {}
+  explicit PointLight(glm::vec3 candela) : intensity(candela) {}
 
   glm::vec3 intensity;  ///< RGB, linear
 };
@@ -18,7 +18,7 @@ class PointLight : public NodeCore {
 /// white surface then shows irradiance / pi.
 class DirectionalLight : public NodeCore {
  public:
-  explicit DirectionalLight(glm::vec3 irradiance) : irradiance(irradiance) {}
+  explicit DirectionalLight(glm::vec3 lux) : irradiance(lux) {}
 
   glm::vec3 irradiance;  ///< RGB, linear
 };

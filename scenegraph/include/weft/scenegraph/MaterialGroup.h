@@ -11,7 +11,7 @@ namespace weft {
 /// can be re-dressed from above.
 class MaterialGroup : public NodeCore {
  public:
-  explicit MaterialGroup(std::shared_ptr<const Material> material) : material(std::move(material)) {}
+  explicit MaterialGroup(std::shared_ptr<const Material> shared) : material(std::move(shared)) {}
 
   std::shared_ptr<const Material> material;
 };

@@ -9,7 +9,7 @@ namespace weft {
 /// Places everything below it: child to parent coordinates, column vectors.
 class Transform : public NodeCore {
  public:
-  explicit Transform(const glm::mat4& matrix = glm::mat4(1.0f)) : matrix(matrix) {}
+  explicit Transform(const glm::mat4& childToParent = glm::mat4(1.0f)) : matrix(childToParent) {}
 
   glm::mat4 matrix;
 };
