@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "weft/core/Result.h"
+
+namespace weft {
+
+/// The files of a folder or a zip, by name. Thread safe.
+class FileCollection {
+ public:
+  virtual ~FileCollection() = default;
+
+  /// Paths relative to the folder or zip, '/' between their parts.
+  virtual const std::vector<std::string>& names() const = 0;
+  /// The contents of names()[index]; fails where they are damaged or larger than kLargestImageFile.
+  virtual Result<std::vector<std::uint8_t>> read(int index) const = 0;
+};
+
+/// All files below a folder, sorted by name.
+Result<std::unique_ptr<FileCollection>> openFolder(const std::filesystem::path& path);
+
+/// All files in a zip, in its order. Entries are unpacked one at a time, because libzip's handles are not
+/// thread safe; for JPEGs and PNGs that costs a few percent of decoding them.
+Result<std::unique_ptr<FileCollection>> openZip(const std::filesystem::path& path);
+
+}  // namespace weft

@@ -1,0 +1,39 @@
+#include <algorithm>
+
+#include "FileBytes.h"
+#include "FileCollection.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FolderCollection : public FileCollection {
+ public:
+  FolderCollection(fs::path folder, std::vector<std::string> names)
+      : folder_(std::move(folder)), names_(std::move(names)) {}
+
+  const std::vector<std::string>& names() const override { return names_; }
+  Result<std::vector<std::uint8_t>> read(int index) const override {
+    return readFileBytes(folder_ / names_[static_cast<std::size_t>(index)], kLargestImageFile);
+  }
+
+ private:
+  fs::path folder_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FileCollection>> openFolder(const fs::path& path) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(path, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error))
+    if (!entry->is_directory(error)) names.push_back(entry->path().lexically_relative(path).generic_string());
+  if (error) return fail("the folder cannot be read: " + error.message(), path.string());
+  std::sort(names.begin(), names.end());
+  return std::make_unique<FolderCollection>(path, std::move(names));
+}
+
+}  // namespace weft
