@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "weft/chunks/Chunk.h"
+#include "weft/chunks/ShaderSource.h"
+
+namespace weft {
+
+/// A vertex and a fragment shader, compiled per context at the first activation. Default: no program.
+///
+/// A program that does not compile is reported to the context at every activation, with file and line, and
+/// nothing must be drawn with it. Blocks and samplers name their bindings in GLSL: `layout(binding = N)`.
+class ProgramChunk : public Chunk {
+ public:
+  explicit ProgramChunk(ShaderSource source) : source_(std::move(source)) {}
+
+  Slot kind() const override { return ProgramSlot; }
+  void activate(GLContext& context, unsigned slot) const override;
+  void changeFrom(GLContext& context, const Chunk& old, unsigned slot) const override;
+  void deactivate(GLContext& context, unsigned slot) const override;
+
+ private:
+  ShaderSource source_;
+  std::shared_ptr<const void> owner_ = std::make_shared<char>();
+};
+
+}  // namespace weft

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "weft/core/Result.h"
+
+namespace weft {
+
+/// Which GLSL files a program is made of. Files are named as in `shaders/`, whose texts are compiled in.
+struct ShaderSource {
+  std::string vertex;
+  std::string fragment;
+  /// `#define NAME VALUE`, in both stages.
+  std::vector<std::pair<std::string, std::string>> defines;
+  /// `#include "KEY"` takes the file VALUE instead ("model.glsl" -> "rfnl.glsl").
+  std::map<std::string, std::string> includeAliases;
+  /// Files found here are taken instead of those compiled in; empty for none.
+  std::filesystem::path overrideFolder;
+
+  bool operator==(const ShaderSource&) const = default;
+};
+
+/// The text of one stage with its includes put in, each file once.
+struct ShaderText {
+  std::string text;
+  std::vector<std::string> files;  ///< by the source string number of `#line`
+
+  /// A compiler's message with file names where it has source string numbers ("mesh.vert:12(5): error").
+  /// `firstPlace` becomes "FILE:LINE" of the first one found.
+  std::string withFileNames(std::string_view log, std::string& firstPlace) const;
+};
+
+/// Puts together the stage that starts with `file`, one of the source's two. Fails on a missing file or on an
+/// include that is not `#include "FILE"`, naming file and line. `#version` must be on a line of its own.
+Result<ShaderText> assembleShader(const ShaderSource& source, const std::string& file);
+
+}  // namespace weft

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "weft/chunks/Chunk.h"
+
+namespace weft {
+
+/// The chunks to draw something with, by slot. Empty slots are at GL's defaults. A value: copies share the
+/// chunks.
+class State {
+ public:
+  /// Puts a chunk of the slot's kind into it, or empties it with null.
+  void set(unsigned slot, std::shared_ptr<const Chunk> chunk);
+  /// Null where the slot is empty.
+  const Chunk* at(unsigned slot) const { return chunks_[slot].get(); }
+
+  /// Changes GL from `previous`, which is active, to this. Visits only slots that one of them occupies and
+  /// does nothing where both hold the same chunk.
+  void changeFrom(GLContext& context, const State& previous) const;
+  /// From GL's defaults.
+  void activate(GLContext& context) const { changeFrom(context, State()); }
+  /// Back to GL's defaults.
+  void deactivate(GLContext& context) const { State().changeFrom(context, *this); }
+
+ private:
+  std::array<std::shared_ptr<const Chunk>, SlotCount> chunks_;
+  std::uint64_t occupied_ = 0;  ///< bit `slot`
+  static_assert(SlotCount <= 64);
+};
+
+}  // namespace weft

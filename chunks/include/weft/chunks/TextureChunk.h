@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+
+#include "weft/chunks/Chunk.h"
+#include "weft/core/FloatImage.h"
+#include "weft/core/Image.h"
+
+namespace weft {
+
+enum class TextureShape {
+  Flat,       ///< sampler2D
+  Array,      ///< sampler2DArray: one slice a layer
+  Rectangle,  ///< sampler2DRect: addressed in texels; GL gives it no repeat and no mipmaps
+  Volume,     ///< sampler3D: one slice a layer
+  Cube,       ///< samplerCube: six square layers, +X -X +Y -Y +Z -Z
+};
+
+enum class TextureFilter { Nearest, Linear, Mipmapped };
+
+/// What lies beyond the edges.
+enum class TextureWrap { Clamp, Repeat, Mirror };
+
+struct TextureOptions {
+  TextureShape shape = TextureShape::Flat;
+  TextureFilter filter = TextureFilter::Nearest;  ///< parameters must not be blended unasked
+  TextureWrap wrap = TextureWrap::Clamp;          ///< the only one that every shape has
+  bool srgb = false;  ///< 8-bit images only: the values are sRGB, sampling gives linear ones
+};
+
+/// A texture on a unit, made from an image that it shares. Default: nothing bound, on any target of the unit.
+///
+/// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the image's
+/// precision: 16F for half, 32F for float, 8 for bytes. sRGB has no format of 1 or 2 channels in GL, so grey
+/// becomes three equal channels. An empty image or none unbinds what was there before.
+class TextureChunk : public Chunk {
+ public:
+  /// Flat, Rectangle: an image of one layer.
+  explicit TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptions options = {});
+  explicit TextureChunk(std::shared_ptr<const Image> image, TextureOptions options = {});
+
+  Slot kind() const override { return TextureSlot; }
+  void activate(GLContext& context, unsigned slot) const override;
+  void changeFrom(GLContext& context, const Chunk& old, unsigned slot) const override;
+  void deactivate(GLContext& context, unsigned slot) const override;
+
+  /// Replaces the image; one of the same size and format refreshes the GL texture instead of remaking it.
+  void setImage(std::shared_ptr<const FloatImage> image);
+  void setImage(std::shared_ptr<const Image> image);
+
+ private:
+  using AnyImage = std::variant<std::shared_ptr<const FloatImage>, std::shared_ptr<const Image>>;
+
+  void replaceImage(AnyImage image);
+  /// The texture in this context, up to date; 0 where there is none.
+  unsigned texture(GLContext& context) const;
+
+  AnyImage image_;
+  TextureOptions options_;
+  std::uint64_t version_ = 0;
+  std::shared_ptr<const void> owner_ = std::make_shared<char>();
+};
+
+}  // namespace weft

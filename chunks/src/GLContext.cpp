@@ -1,0 +1,63 @@
+#include "weft/chunks/GLContext.h"
+
+#include <epoxy/gl.h>
+
+namespace weft {
+
+namespace {
+
+int integer(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+bool isWrong(GLenum type, GLenum severity) {
+  return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
+         severity == GL_DEBUG_SEVERITY_HIGH;
+}
+
+void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
+                               const void* context) {
+  if (!isWrong(type, severity)) return;
+  // GL takes the pointer as const, but it is the one that reportDebugOutput() gave.
+  static_cast<GLContext*>(const_cast<void*>(context))->report({message, "OpenGL", {}});
+}
+
+}  // namespace
+
+GLContext::GLContext() {
+  limits_.textureSize = integer(GL_MAX_TEXTURE_SIZE);
+  limits_.textureLayers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  limits_.volumeSize = integer(GL_MAX_3D_TEXTURE_SIZE);
+  limits_.cubeSize = integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE);
+  limits_.rectangleSize = integer(GL_MAX_RECTANGLE_TEXTURE_SIZE);
+  limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
+  limits_.storageBlockBytes = integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  limits_.uniformOffsetAlignment = integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+}
+
+GLContext::~GLContext() = default;
+
+void GLContext::deleteOrphans() {
+  std::erase_if(objects_, [](const auto& entry) { return entry.first.expired(); });
+}
+
+void GLContext::report(Error error) {
+  if (!firstError_) firstError_ = std::move(error);
+}
+
+Result<void> GLContext::takeErrors() {
+  if (!firstError_) return {};
+  Error error = std::move(*firstError_);
+  firstError_.reset();
+  return tl::unexpected(std::move(error));
+}
+
+void GLContext::reportDebugOutput() {
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(&onDebugMessage, this);
+}
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#include "weft/chunks/State.h"
+
+#include <bit>
+
+namespace weft {
+
+void State::set(unsigned slot, std::shared_ptr<const Chunk> chunk) {
+  WEFT_EXPECT(!chunk || chunk->kind() == slotKind(slot), "a chunk goes into a slot of its kind");
+  const std::uint64_t bit = std::uint64_t{1} << slot;
+  occupied_ = chunk ? occupied_ | bit : occupied_ & ~bit;
+  chunks_[slot] = std::move(chunk);
+}
+
+void State::changeFrom(GLContext& context, const State& previous) const {
+  for (std::uint64_t slots = occupied_ | previous.occupied_; slots != 0; slots &= slots - 1) {
+    const auto slot = static_cast<unsigned>(std::countr_zero(slots));
+    const Chunk* next = at(slot);
+    const Chunk* old = previous.at(slot);
+    if (next == old) continue;
+    if (!old)
+      next->activate(context, slot);
+    else if (!next)
+      old->deactivate(context, slot);
+    else
+      next->changeFrom(context, *old, slot);
+  }
+}
+
+}  // namespace weft

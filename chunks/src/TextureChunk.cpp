@@ -1,0 +1,247 @@
+#include "weft/chunks/TextureChunk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "TextureFormat.h"
+#include "weft/chunks/GLName.h"
+
+namespace weft {
+
+namespace {
+
+/// Everything that an immutable texture is made with.
+struct TextureLayout {
+  GLenum storage = 0;
+  int width = 0;
+  int height = 0;
+  int layers = 0;
+  int levels = 0;
+
+  bool operator==(const TextureLayout&) const = default;
+};
+
+struct TextureObjects {
+  GLTexture texture;
+  TextureLayout layout;
+  std::uint64_t version = 0;
+};
+
+/// Texels as GL takes them.
+struct Texels {
+  TextureFormat format;
+  int width = 0;
+  int height = 0;
+  int layers = 0;
+  const void* values = nullptr;
+  std::vector<std::uint8_t> expanded;  ///< what `values` points to where the image had to be converted
+};
+
+GLenum target(TextureShape shape) {
+  switch (shape) {
+    case TextureShape::Flat:
+      return GL_TEXTURE_2D;
+    case TextureShape::Array:
+      return GL_TEXTURE_2D_ARRAY;
+    case TextureShape::Rectangle:
+      return GL_TEXTURE_RECTANGLE;
+    case TextureShape::Volume:
+      return GL_TEXTURE_3D;
+    case TextureShape::Cube:
+      return GL_TEXTURE_CUBE_MAP;
+  }
+  return GL_NONE;
+}
+
+bool isFlat(TextureShape shape) {
+  return shape == TextureShape::Flat || shape == TextureShape::Rectangle;
+}
+
+/// Grey, or grey and alpha, as RGB, or RGBA.
+std::vector<std::uint8_t> expandGrey(const Image& image) {
+  std::vector<std::uint8_t> expanded;
+  expanded.reserve(image.bytes.size() * 3);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < image.bytes.size(); i += channels) {
+    expanded.insert(expanded.end(), 3, image.bytes[i]);
+    if (channels == 2) expanded.push_back(image.bytes[i + 1]);
+  }
+  return expanded;
+}
+
+Texels texelsOf(const FloatImage& image, const TextureOptions&) {
+  return {floatFormat(image.precision(), image.channelCount()),
+          image.width(),
+          image.height(),
+          image.layers(),
+          image.values().data(),
+          {}};
+}
+
+Texels texelsOf(const Image& image, const TextureOptions& options) {
+  Texels texels{byteFormat(image.channels), image.width, image.height, 1, image.bytes.data(), {}};
+  if (!options.srgb) return texels;
+  if (image.channels <= 2) {
+    texels.expanded = expandGrey(image);
+    texels.values = texels.expanded.data();
+  }
+  texels.format = srgbFormat(image.channels <= 2 ? image.channels + 2 : image.channels);
+  return texels;
+}
+
+bool isEmpty(const FloatImage& image) {
+  return image.empty();
+}
+bool isEmpty(const Image& image) {
+  return image.bytes.empty();
+}
+
+/// What the shape asks of the image; a caller who breaks it could only get a wrong picture.
+void expectFits(const TextureOptions& options, const FloatImage& image) {
+  WEFT_EXPECT(!options.srgb, "float images are linear");
+  WEFT_EXPECT(image.channelCount() <= 4, "a texture has 1 to 4 channels");
+  WEFT_EXPECT(!isFlat(options.shape) || image.layers() == 1, "a flat texture has one layer");
+  WEFT_EXPECT(options.shape != TextureShape::Cube || (image.layers() == 6 && image.width() == image.height()),
+              "a cube texture has six square layers");
+}
+void expectFits(const TextureOptions& options, const Image& image) {
+  WEFT_EXPECT(options.shape != TextureShape::Cube, "a cube texture has six square layers");
+  WEFT_EXPECT(image.channels >= 1 && image.channels <= 4, "a texture has 1 to 4 channels");
+  WEFT_EXPECT(image.bytes.size() == static_cast<std::size_t>(image.width) *
+                                        static_cast<std::size_t>(image.height) *
+                                        static_cast<std::size_t>(image.channels),
+              "an image has width x height x channels bytes");
+}
+
+int levelsOf(const TextureOptions& options, const Texels& texels) {
+  if (options.filter != TextureFilter::Mipmapped) return 1;
+  int size = std::max(texels.width, texels.height);
+  if (options.shape == TextureShape::Volume) size = std::max(size, texels.layers);
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(size)));
+}
+
+/// Reports what the GL cannot hold.
+bool fits(GLContext& context, TextureShape shape, const Texels& texels) {
+  const GLLimits& limits = context.limits();
+  int size = limits.textureSize;
+  int layers = 1;
+  if (shape == TextureShape::Array) layers = limits.textureLayers;
+  if (shape == TextureShape::Rectangle) size = limits.rectangleSize;
+  if (shape == TextureShape::Volume) size = layers = limits.volumeSize;
+  if (shape == TextureShape::Cube) size = limits.cubeSize, layers = 6;
+  if (texels.width <= size && texels.height <= size && texels.layers <= layers) return true;
+  context.report(
+      {fmt::format("a texture of {} x {} x {} is larger than the {} x {} x {} that this OpenGL allows",
+                   texels.width, texels.height, texels.layers, size, size, layers),
+       {},
+       {}});
+  return false;
+}
+
+void setSampling(GLuint texture, const TextureOptions& options) {
+  const bool nearest = options.filter == TextureFilter::Nearest;
+  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
+                      options.filter == TextureFilter::Mipmapped ? GL_LINEAR_MIPMAP_LINEAR
+                      : nearest                                  ? GL_NEAREST
+                                                                 : GL_LINEAR);
+  const GLint wrap = options.wrap == TextureWrap::Clamp    ? GL_CLAMP_TO_EDGE
+                     : options.wrap == TextureWrap::Repeat ? GL_REPEAT
+                                                           : GL_MIRRORED_REPEAT;
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture, axis, wrap);
+}
+
+GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options) {
+  GLuint name = 0;
+  glCreateTextures(target(options.shape), 1, &name);
+  // A cube's six layers are not said: it always has them.
+  if (isFlat(options.shape) || options.shape == TextureShape::Cube)
+    glTextureStorage2D(name, layout.levels, layout.storage, layout.width, layout.height);
+  else
+    glTextureStorage3D(name, layout.levels, layout.storage, layout.width, layout.height, layout.layers);
+  setSampling(name, options);
+  return GLTexture(name);
+}
+
+void upload(GLuint texture, const TextureOptions& options, const Texels& texels) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  if (isFlat(options.shape))
+    glTextureSubImage2D(texture, 0, 0, 0, texels.width, texels.height, texels.format.channels,
+                        texels.format.type, texels.values);
+  else
+    glTextureSubImage3D(texture, 0, 0, 0, 0, texels.width, texels.height, texels.layers,
+                        texels.format.channels, texels.format.type, texels.values);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);  // GL's default
+  if (options.filter == TextureFilter::Mipmapped) glGenerateTextureMipmap(texture);
+}
+
+}  // namespace
+
+TextureChunk::TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptions options)
+    : options_(options) {
+  replaceImage(std::move(image));
+}
+
+TextureChunk::TextureChunk(std::shared_ptr<const Image> image, TextureOptions options) : options_(options) {
+  replaceImage(std::move(image));
+}
+
+void TextureChunk::setImage(std::shared_ptr<const FloatImage> image) {
+  replaceImage(std::move(image));
+}
+
+void TextureChunk::setImage(std::shared_ptr<const Image> image) {
+  replaceImage(std::move(image));
+}
+
+void TextureChunk::replaceImage(AnyImage image) {
+  WEFT_EXPECT(options_.shape != TextureShape::Rectangle ||
+                  (options_.wrap == TextureWrap::Clamp && options_.filter != TextureFilter::Mipmapped),
+              "a rectangle texture has no repeat and no mipmaps");
+  std::visit(
+      [this](const auto& held) {
+        if (held && !isEmpty(*held)) expectFits(options_, *held);
+      },
+      image);
+  image_ = std::move(image);
+  ++version_;
+}
+
+unsigned TextureChunk::texture(GLContext& context) const {
+  const bool hasImage = std::visit([](const auto& held) { return held && !isEmpty(*held); }, image_);
+  if (!hasImage) return 0;
+  auto& objects = context.objectsOf<TextureObjects>(owner_);
+  if (objects.version == version_) return objects.texture;
+
+  const Texels texels = std::visit([this](const auto& held) { return texelsOf(*held, options_); }, image_);
+  if (!fits(context, options_.shape, texels)) return 0;
+  const TextureLayout layout{texels.format.storage, texels.width, texels.height, texels.layers,
+                             levelsOf(options_, texels)};
+  if (layout != objects.layout) {
+    objects.texture = makeTexture(layout, options_);
+    objects.layout = layout;
+  }
+  upload(objects.texture, options_, texels);
+  objects.version = version_;
+  return objects.texture;
+}
+
+void TextureChunk::activate(GLContext& context, unsigned slot) const {
+  glBindTextureUnit(slot - TextureSlot, texture(context));
+}
+
+void TextureChunk::changeFrom(GLContext& context, const Chunk& old, unsigned slot) const {
+  // Every target of a unit has a binding of its own: another target's would stay beside ours.
+  if (static_cast<const TextureChunk&>(old).options_.shape != options_.shape) old.deactivate(context, slot);
+  activate(context, slot);
+}
+
+void TextureChunk::deactivate(GLContext&, unsigned slot) const {
+  glBindTextureUnit(slot - TextureSlot, 0);
+}
+
+}  // namespace weft

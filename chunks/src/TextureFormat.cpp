@@ -1,0 +1,45 @@
+#include "TextureFormat.h"
+
+#include "weft/core/Contract.h"
+
+namespace weft {
+
+namespace {
+
+struct FormatRow {
+  GLenum channels;
+  GLenum byte;
+  GLenum srgb;  ///< 0: GL has none
+  GLenum half;
+  GLenum single;
+};
+
+constexpr FormatRow kFormats[] = {
+    {GL_RED, GL_R8, 0, GL_R16F, GL_R32F},
+    {GL_RG, GL_RG8, 0, GL_RG16F, GL_RG32F},
+    {GL_RGB, GL_RGB8, GL_SRGB8, GL_RGB16F, GL_RGB32F},
+    {GL_RGBA, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16F, GL_RGBA32F},
+};
+
+const FormatRow& row(int channels) {
+  WEFT_EXPECT(channels >= 1 && channels <= 4, "a texture has 1 to 4 channels");
+  return kFormats[channels - 1];
+}
+
+}  // namespace
+
+TextureFormat floatFormat(Precision precision, int channels) {
+  const FormatRow& format = row(channels);
+  return {precision == Precision::Half ? format.half : format.single, format.channels, GL_FLOAT};
+}
+
+TextureFormat byteFormat(int channels) {
+  return {row(channels).byte, row(channels).channels, GL_UNSIGNED_BYTE};
+}
+
+TextureFormat srgbFormat(int channels) {
+  WEFT_EXPECT(row(channels).srgb != 0, "GL has no sRGB format of 1 or 2 channels");
+  return {row(channels).srgb, row(channels).channels, GL_UNSIGNED_BYTE};
+}
+
+}  // namespace weft
