@@ -2,9 +2,10 @@
 #version 450 core
 #include "lights.glsl"
 
+// Filled by the renderer for each thing that it draws (scenegraph/src/FrameBlock.h has the same layout).
 layout(std140, binding = 1) uniform Object {
   mat4 model;
-  mat4 normalMatrix;  // inverse transpose of model
+  mat4 normalMatrix;  // inverse transpose of model, but for a positive factor
 };
 
 layout(location = 0) in vec3 inPosition;
@@ -21,10 +22,13 @@ flat out float handedness;  // +1 or -1: of the bitangent, which points up the i
 void main() {
   vec4 world = model * vec4(inPosition, 1.0);
   position = world.xyz;
-  normal = mat3(normalMatrix) * inNormal;
-  tangent = mat3(model) * inTangent.xyz;
+  // Of unit length before they are interpolated, so that scaling does not bend them.
+  vec3 worldNormal = mat3(normalMatrix) * inNormal;
+  normal = worldNormal * inversesqrt(max(dot(worldNormal, worldNormal), 1e-30));
+  vec3 worldTangent = mat3(model) * inTangent.xyz;
+  tangent = worldTangent * inversesqrt(max(dot(worldTangent, worldTangent), 1e-30));
   // A mirroring transform turns the handedness of the whole frame.
-  handedness = inTangent.w * sign(determinant(mat3(model)));
+  handedness = determinant(mat3(model)) < 0.0 ? -inTangent.w : inTangent.w;
   texcoord = inTexcoord;
   gl_Position = viewProjection * world;
 }

@@ -16,11 +16,11 @@ struct ShaderSource {
   std::string vertex;
   std::string fragment;
   /// `#define NAME VALUE`, in both stages.
-  std::vector<std::pair<std::string, std::string>> defines;
+  std::vector<std::pair<std::string, std::string>> defines{};
   /// `#include "KEY"` takes the file VALUE instead ("model.glsl" -> "rfnl.glsl").
-  std::map<std::string, std::string> includeAliases;
+  std::map<std::string, std::string> includeAliases{};
   /// Files found here are taken instead of those compiled in; empty for none.
-  std::filesystem::path overrideFolder;
+  std::filesystem::path overrideFolder{};
 
   bool operator==(const ShaderSource&) const = default;
 };

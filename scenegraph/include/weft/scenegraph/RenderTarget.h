@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "weft/chunks/GLContext.h"
+#include "weft/core/FloatImage.h"
+
+namespace weft {
+
+/// What is rendered into: linear RGBA, half or float, with a depth buffer. One picture per context that
+/// renders into it.
+class RenderTarget {
+ public:
+  /// Sizes must be positive; one too large for the GL is reported to the context.
+  RenderTarget(int width, int height, Precision precision = Precision::Half);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// Makes it the place that is drawn to, over its whole area, and clears it; unbind() ends that.
+  void bindAndClear(GLContext& context, const float (&background)[4]) const;
+  static void unbind();
+
+  /// The picture, channels R, G, B, A; zeros where nothing was rendered. `downsample` n averages n x n pixels
+  /// into one (supersampling) and must divide both sizes.
+  FloatImage read(GLContext& context, int downsample = 1) const;
+
+ private:
+  int width_;
+  int height_;
+  Precision precision_;
+  std::shared_ptr<const void> owner_ = std::make_shared<char>();
+};
+
+}  // namespace weft

@@ -1,0 +1,86 @@
+#include "weft/scenegraph/RenderTarget.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "weft/chunks/GLName.h"
+
+namespace weft {
+
+namespace {
+
+struct TargetObjects {
+  GLTexture color;
+  GLTexture depth;
+  GLFramebuffer framebuffer;
+};
+
+GLTexture makeImage(GLenum format, int width, int height) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  glTextureStorage2D(name, 1, format, width, height);
+  return GLTexture(name);
+}
+
+void make(TargetObjects& objects, Precision precision, int width, int height) {
+  objects.color = makeImage(precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F, width, height);
+  objects.depth = makeImage(GL_DEPTH_COMPONENT32F, width, height);
+  objects.framebuffer = createGL<GLFramebuffer>(glCreateFramebuffers);
+  glNamedFramebufferTexture(objects.framebuffer, GL_COLOR_ATTACHMENT0, objects.color, 0);
+  glNamedFramebufferTexture(objects.framebuffer, GL_DEPTH_ATTACHMENT, objects.depth, 0);
+  WEFT_EXPECT(
+      glCheckNamedFramebufferStatus(objects.framebuffer, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
+      "every OpenGL 4.5 can render to RGBA16F and RGBA32F");
+}
+
+}  // namespace
+
+RenderTarget::RenderTarget(int width, int height, Precision precision)
+    : width_(width), height_(height), precision_(precision) {
+  WEFT_EXPECT(width > 0 && height > 0, "a render target has a positive size");
+}
+
+void RenderTarget::bindAndClear(GLContext& context, const float (&background)[4]) const {
+  const int limit = context.limits().textureSize;
+  if (width_ > limit || height_ > limit) {
+    context.report({fmt::format("a picture of {} x {} is larger than the {} x {} that this OpenGL allows",
+                                width_, height_, limit, limit),
+                    {},
+                    {}});
+    return;
+  }
+  auto& objects = context.objectsOf<TargetObjects>(owner_);
+  if (!objects.framebuffer) make(objects, precision_, width_, height_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects.framebuffer);
+  glViewport(0, 0, width_, height_);
+  const float farthest = 1.0f;
+  glClearNamedFramebufferfv(objects.framebuffer, GL_COLOR, 0, background);
+  glClearNamedFramebufferfv(objects.framebuffer, GL_DEPTH, 0, &farthest);
+}
+
+void RenderTarget::unbind() {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+}
+
+FloatImage RenderTarget::read(GLContext& context, int downsample) const {
+  WEFT_EXPECT(downsample > 0 && width_ % downsample == 0 && height_ % downsample == 0,
+              "the size is a multiple of downsample");
+  FloatImage image(width_ / downsample, height_ / downsample, {"R", "G", "B", "A"});
+  const auto& objects = context.objectsOf<TargetObjects>(owner_);
+  if (!objects.framebuffer) return image;
+
+  std::vector<float> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+  glGetTextureImage(objects.color, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)),
+                    pixels.data());
+  const float weight = 1.0f / static_cast<float>(downsample * downsample);
+  const float* pixel = pixels.data();
+  for (int y = height_ - 1; y >= 0; --y) {  // GL's first row is the bottom one
+    for (int x = 0; x < width_; ++x)
+      for (float& value : image.texel(x / downsample, y / downsample)) value += weight * *pixel++;
+  }
+  if (downsample == 1) image.setPrecision(precision_);
+  return image;
+}
+
+}  // namespace weft
