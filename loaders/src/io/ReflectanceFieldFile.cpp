@@ -1,0 +1,158 @@
+#include "weft/io/ReflectanceFieldFile.h"
+
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "ExrPart.h"
+#include "FieldManifest.h"
+#include "ParallelTry.h"
+#include "weft/core/AtomicFile.h"
+
+namespace weft {
+namespace {
+
+constexpr const char* kManifestAttribute = "weftReflectanceField";
+constexpr const char* kSharedPart = "shared";
+
+std::string viewPart(int view) {
+  return fmt::format("view{:03}", view);
+}
+
+Imf::Header partHeader(const FloatImage& image, const std::string& name) {
+  Imf::Header header = exrPartHeader(image);
+  header.setName(name);
+  header.setType(Imf::SCANLINEIMAGE);
+  return header;
+}
+
+void writeParts(const ReflectanceField& field, const std::string& manifest, const std::string& path) {
+  std::vector<Imf::Header> headers{partHeader(field.shared(), kSharedPart)};
+  headers[0].insert(kManifestAttribute, Imf::StringAttribute(manifest));
+  for (int view = 0; view < field.viewCount(); ++view)
+    headers.push_back(partHeader(field.views(), viewPart(view)));
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()), false, 0);
+  Imf::OutputPart shared(file, 0);
+  writeExrPart(shared, field.shared(), 0);
+  for (int view = 0; view < field.viewCount(); ++view) {
+    Imf::OutputPart part(file, view + 1);
+    writeExrPart(part, field.views(), view);
+  }
+}
+
+// Every part but the first must be as large as it and hold the model's view channels; channels in a file are
+// in alphabetical order.
+Result<ExrPartShape> checkPart(const Imf::MultiPartInputFile& file, int part, const std::string& name,
+                               std::vector<std::string> channels, const std::string& where) {
+  const Imf::Header& header = file.header(part);
+  if (!header.hasName() || header.name() != name)
+    return fail(fmt::format("part {} is not named '{}'", part, name), where);
+  WEFT_TRY(ExrPartShape shape, exrPartShape(header, fmt::format("{}: part '{}'", where, name)));
+  std::sort(channels.begin(), channels.end());
+  if (shape.channels != channels)
+    return fail(fmt::format("the channels of part '{}' are not those of the model", name), where);
+  return shape;
+}
+
+struct FieldShape {
+  int width = 0;
+  int height = 0;
+  Precision shared = Precision::Half;
+  Precision views = Precision::Half;
+};
+
+Result<FieldShape> checkParts(const Imf::MultiPartInputFile& file, const ReflectanceModel& model,
+                              std::size_t views, std::uint64_t fileBytes, const std::string& where) {
+  if (static_cast<std::size_t>(file.parts()) != views + 1)
+    return fail(fmt::format("the manifest describes {} views, the file has {}", views, file.parts() - 1),
+                where);
+  WEFT_TRY(const ExrPartShape shared, checkPart(file, 0, kSharedPart, model.sharedChannels(), where));
+  FieldShape shape{shared.width, shared.height, shared.precision, Precision::Half};
+  for (int view = 0; view < static_cast<int>(views); ++view) {
+    WEFT_TRY(const ExrPartShape part, checkPart(file, view + 1, viewPart(view), model.viewChannels(), where));
+    if (part.width != shape.width || part.height != shape.height)
+      return fail(fmt::format("part '{}' differs in size", viewPart(view)), where);
+    if (part.precision == Precision::Float) shape.views = Precision::Float;
+  }
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(shape.width) * static_cast<std::uint64_t>(shape.height);
+  const std::uint64_t channels = model.sharedChannels().size() + views * model.viewChannels().size();
+  WEFT_TRY_VOID(checkExrMemory(pixels * channels, fileBytes, where));
+  return shape;
+}
+
+// OpenEXR locks a file while it unpacks a part of it, so every thread opens its own.
+Result<void> readParts(const std::string& path, FloatImage& shared, FloatImage& views) {
+  tbb::enumerable_thread_specific<std::unique_ptr<Imf::MultiPartInputFile>> files;
+  return parallelTry(views.layers() + 1, [&](int index) -> Result<void> {
+    try {
+      std::unique_ptr<Imf::MultiPartInputFile>& file = files.local();
+      if (!file) file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), 0);
+      Imf::InputPart part(*file, index);
+      readExrPart(part, index == 0 ? shared : views, std::max(index - 1, 0));
+      return {};
+    } catch (const std::exception& error) {
+      return fail(fmt::format("part {} is damaged: {}", index, error.what()), path);
+    }
+  });
+}
+
+// The rest of the file's checks do not know its name.
+Error inFile(Error error, const std::string& where) {
+  error.where = error.where.empty() ? where : where + ": " + error.where;
+  return error;
+}
+
+}  // namespace
+
+Result<void> writeReflectanceField(const ReflectanceField& field, const std::filesystem::path& path) {
+  const FieldManifest manifest{field.model().description(), field.description()};
+  const Result<std::string> text = manifest.text();
+  if (!text) return tl::unexpected<Error>(inFile(text.error(), path.string()));
+  WEFT_TRY(AtomicFile file, AtomicFile::create(path));
+  try {
+    writeParts(field, *text, file.temporary().string());
+  } catch (const std::exception& error) {
+    return fail(std::string("the reflectance field cannot be written: ") + error.what(), path.string(),
+                "is the disk full?");
+  }
+  return file.commit();
+}
+
+Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
+                                              const ModelRegistry& models) {
+  const std::string where = path.string();
+  WEFT_TRY(const std::uint64_t fileBytes, checkExrFile(path));
+  try {
+    const Imf::MultiPartInputFile file(where.c_str(), 0);
+    const auto* attribute = file.header(0).findTypedAttribute<Imf::StringAttribute>(kManifestAttribute);
+    if (!attribute)
+      return fail("not a reflectance field: the OpenEXR file has no manifest", where, "weft-fit writes them");
+    Result<FieldManifest> manifest = FieldManifest::parse(attribute->value());
+    if (!manifest) return tl::unexpected<Error>(inFile(manifest.error(), where));
+    Result<std::shared_ptr<const ReflectanceModel>> model = models.create(manifest->model);
+    if (!model) return tl::unexpected<Error>(inFile(model.error(), where));
+    const std::size_t viewCount = manifest->field.views.size();
+    WEFT_TRY(const FieldShape shape, checkParts(file, **model, viewCount, fileBytes, where));
+
+    FloatImage shared(shape.width, shape.height, (*model)->sharedChannels());
+    FloatImage views(shape.width, shape.height, (*model)->viewChannels(), static_cast<int>(viewCount));
+    shared.setPrecision(shape.shared);
+    views.setPrecision(shape.views);
+    WEFT_TRY_VOID(readParts(where, shared, views));
+    Result<ReflectanceField> field =
+        ReflectanceField::create(*model, std::move(manifest->field), std::move(shared), std::move(views));
+    if (!field) return tl::unexpected<Error>(inFile(field.error(), where));
+    return field;
+  } catch (const std::exception& error) {
+    return fail(std::string("the OpenEXR file is damaged: ") + error.what(), where);
+  }
+}
+
+}  // namespace weft

@@ -1,0 +1,1 @@
+#include "weft/scene_io/RectangleTextureLoader.h"
