@@ -155,4 +155,14 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
   }
 }
 
+std::uint64_t gpuBytes(const ReflectanceField& field) {
+  constexpr std::uint64_t kTexelBytes = 4 * 2;
+  const auto texelsFor = [](int channels) { return static_cast<std::uint64_t>((channels + 3) / 4); };
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
+  return kTexelBytes * pixels *
+         (texelsFor(field.shared().channelCount()) +
+          static_cast<std::uint64_t>(field.viewCount()) * texelsFor(field.views().channelCount()));
+}
+
 }  // namespace weft

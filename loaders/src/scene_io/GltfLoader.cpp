@@ -77,7 +77,7 @@ std::optional<glm::mat4> viewOf(const glm::mat4& toWorld) {
 class SceneReader {
  public:
   SceneReader(GltfFile file, const GltfOptions& options)
-      : file_(std::move(file)), materials_(file_, options, scene_.warnings) {}
+      : file_(std::move(file)), options_(options), materials_(file_, options, scene_.warnings) {}
   SceneReader(const SceneReader&) = delete;
   SceneReader& operator=(const SceneReader&) = delete;
 
@@ -132,7 +132,7 @@ class SceneReader {
   Result<void> addContents(const tinygltf::Node& node, Node& placed, const glm::mat4& toWorld) {
     if (node.mesh >= 0) WEFT_TRY_VOID(addMesh(node.mesh, placed));
     if (node.camera >= 0) WEFT_TRY_VOID(addCamera(node, toWorld));
-    if (node.extensions.contains(kLightExtension))
+    if (options_.lights && node.extensions.contains(kLightExtension))
       WEFT_TRY_VOID(addLight(node.extensions.at(kLightExtension), placed));
     return {};
   }
@@ -208,7 +208,7 @@ class SceneReader {
       warn("light \"" + light.name + "\" is left out, it is neither a point nor a directional one");
       return {};
     }
-    glm::vec3 intensity(light.intensity);
+    glm::vec3 intensity(static_cast<float>(light.intensity));
     if (light.color.size() == 3) intensity *= glm::vec3(light.color[0], light.color[1], light.color[2]);
     const bool valid = (light.color.empty() || light.color.size() == 3) && intensity.x >= 0.0f &&
                        intensity.y >= 0.0f && intensity.z >= 0.0f && std::isfinite(glm::length(intensity));
@@ -232,6 +232,7 @@ class SceneReader {
   }
 
   GltfFile file_;
+  const GltfOptions& options_;
   GltfScene scene_;
   GltfMaterials materials_;
   std::map<int, std::vector<Primitive>> meshes_;

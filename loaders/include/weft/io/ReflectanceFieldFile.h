@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "weft/core/Result.h"
@@ -14,5 +15,9 @@ Result<void> writeReflectanceField(const ReflectanceField& field, const std::fil
 /// Reads it back. Fails, with file and reason, on anything that is not such a file; sizes are checked before
 /// memory is taken.
 Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path, const ModelRegistry& models);
+
+/// Bytes of the textures that a renderer makes of a field: RGBA half-precision texels, as many as hold the
+/// shared channels and the channels of every view.
+std::uint64_t gpuBytes(const ReflectanceField& field);
 
 }  // namespace weft

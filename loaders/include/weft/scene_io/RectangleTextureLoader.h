@@ -14,7 +14,7 @@ namespace weft {
 /// as paper M 5.4 keeps a material's parameters.
 ///
 /// `channels`: 1 to 4 names in the order in which they become r, g, b, a; the file may have more. Half stays
-/// half, float stays float. Fails, with file and reason, on a file that is not OpenEXR, has several layers or
+/// half, float stays float. Fails, with file and reason, on a file that is not OpenEXR, or
 /// lacks a channel. Touches no GL.
 Result<std::shared_ptr<TextureChunk>> loadRectangleTexture(const std::filesystem::path& path,
                                                            const std::vector<std::string>& channels = {

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "weft/io/BtfSource.h"
+#include "weft/io/ReflectanceFieldFile.h"
+#include "weft/tool/Tool.h"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe(const weft::BtfDescription& btf) {
+  return {{"kind", "btf"},
+          {"name", btf.name},
+          {"width", btf.width},
+          {"height", btf.height},
+          {"views", btf.views.size()},
+          {"lights", btf.lights.size()},
+          {"encoding", weft::name(btf.encoding)},
+          {"has_cosine", btf.cosineInData}};
+}
+
+Json describe(const weft::ReflectanceField& field) {
+  const weft::ReflectanceFieldDescription& description = field.description();
+  const weft::ModelDescription model = field.model().description();
+  Json modelJson = {{"name", model.name},
+                    {"shared_channels", field.shared().channels()},
+                    {"view_channels", field.views().channels()}};
+  if (model.lobes > 0) modelJson["lobes"] = model.lobes;
+  return {{"kind", "reflectance field"},
+          {"name", description.source},
+          {"width", field.width()},
+          {"height", field.height()},
+          {"views", field.viewCount()},
+          {"lights", description.lights.size()},
+          {"encoding", weft::name(weft::Encoding::Linear)},
+          {"has_cosine", description.hasCosine},
+          {"precision", field.views().precision() == weft::Precision::Half ? "half" : "float"},
+          {"model", modelJson},
+          {"fit", description.fitReport.empty() ? Json() : Json::parse(description.fitReport)}};
+}
+
+weft::Result<Json> describeFile(const std::filesystem::path& file) {
+  Json json;
+  Json bytes = Json::object();
+  if (file.extension() == ".exr") {
+    WEFT_TRY(const weft::ReflectanceField field,
+             weft::readReflectanceField(file, weft::ModelRegistry::builtin()));
+    json = describe(field);
+    bytes["gpu"] = weft::gpuBytes(field);
+  } else {
+    WEFT_TRY(const std::unique_ptr<weft::BtfSource> btf, weft::openBtf(file));
+    json = describe(btf->description());
+  }
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) bytes["file"] = std::filesystem::file_size(file, error);
+  json["bytes"] = bytes;
+  return json;
+}
+
+// "model.name  rfnl": one line a value, names joined by dots; lists in brackets.
+void print(const Json& json, const std::string& prefix) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string name = prefix + key;
+    if (value.is_object())
+      print(value, name + ".");
+    else
+      fmt::print("{:<24} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  weft::Tool tool({"weft-info", "Says what a measured BTF or a fitted reflectance field is.",
+                   "weft-info wool.rf.exr --json -", WEFT_VERSION});
+  std::filesystem::path file;
+  tool.options().add_option("FILE", file, "a folder or zip of angle-named images, or a .rf.exr")->required();
+  return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {
+    WEFT_TRY(const Json json, describeFile(file));
+    if (!tool.jsonOnStdout()) print(json, "");
+    WEFT_TRY_VOID(tool.writeJson(json));
+    return weft::ExitCode::Done;
+  });
+}
