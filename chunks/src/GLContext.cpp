@@ -12,14 +12,15 @@ int integer(GLenum name) {
   return value;
 }
 
-bool isWrong(GLenum type, GLenum severity) {
+bool isWrong(GLenum source, GLenum type, GLenum severity) {
+  if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return false;  // ProgramChunk reports these, with their file
   return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
          severity == GL_DEBUG_SEVERITY_HIGH;
 }
 
-void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
-                               const void* context) {
-  if (!isWrong(type, severity)) return;
+void GLAPIENTRY onDebugMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei,
+                               const GLchar* message, const void* context) {
+  if (!isWrong(source, type, severity)) return;
   // GL takes the pointer as const, but it is the one that reportDebugOutput() gave.
   static_cast<GLContext*>(const_cast<void*>(context))->report({message, "OpenGL", {}});
 }

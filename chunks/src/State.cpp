@@ -5,7 +5,8 @@
 namespace weft {
 
 void State::set(unsigned slot, std::shared_ptr<const Chunk> chunk) {
-  WEFT_EXPECT(!chunk || chunk->kind() == slotKind(slot), "a chunk goes into a slot of its kind");
+  const Slot kind = slotKind(slot);
+  WEFT_EXPECT(!chunk || chunk->kind() == kind, "a chunk goes into a slot of its kind");
   const std::uint64_t bit = std::uint64_t{1} << slot;
   occupied_ = chunk ? occupied_ | bit : occupied_ & ~bit;
   chunks_[slot] = std::move(chunk);

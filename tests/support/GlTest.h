@@ -6,7 +6,9 @@
 #include <memory>
 #include <string_view>
 
+#include "TestScene.h"
 #include "weft/scenegraph/HeadlessWindow.h"
+#include "weft/scenegraph/Renderer.h"
 
 namespace weft::test {
 
@@ -34,7 +36,16 @@ class GlTest : public testing::Test {
 
   GLContext& context() { return window->context(); }
 
+  /// The picture of a scene in floats, as squareCamera() sees it.
+  FloatImage picture(const Node& root, int width = 8, int height = 8, const RenderOptions& options = {}) {
+    const RenderTarget target(width, height, Precision::Float);
+    if (const auto rendered = renderer.render(context(), root, squareCamera(), target, options); !rendered)
+      ADD_FAILURE() << rendered.error().message();
+    return target.read(context());
+  }
+
   std::unique_ptr<HeadlessWindow> window;
+  Renderer renderer;
 };
 
 }  // namespace weft::test

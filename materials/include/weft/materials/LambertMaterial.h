@@ -9,9 +9,9 @@
 namespace weft {
 
 struct LambertOptions {
-  glm::vec4 baseColor{1.0f};                      ///< linear RGB and alpha
-  std::shared_ptr<const Image> baseColorTexture;  ///< sRGB, multiplied; null for none
-  bool doubleSided = false;                       ///< draw and light back faces, too
+  glm::vec4 baseColor{1.0f};                        ///< linear RGB and alpha
+  std::shared_ptr<const Image> baseColorTexture{};  ///< sRGB, multiplied; null for none
+  bool doubleSided = false;                         ///< draw and light back faces, too
 };
 
 /// A matt surface: radiance = baseColor / pi x irradiance x n.l. What materials without a BTF are drawn with.
