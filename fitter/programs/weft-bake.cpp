@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "weft/fitter/BakedBtf.h"
+#include "weft/fitter/BtfBaker.h"
+#include "weft/fitter/Pattern.h"
+#include "weft/tool/Tool.h"
+
+namespace {
+
+using namespace weft;
+
+/// The share of values that may clip when no scale is given.
+constexpr double kClippedShare = 0.001;
+
+struct Arguments {
+  std::string output;
+  std::string pattern;
+  std::string directions = "ubo2003";
+  int size = 64;
+  float scale = 0.0f;  // 0: not given
+  BakeOptions bake;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  std::vector<std::string> patterns(patternNames().begin(), patternNames().end());
+  app.add_option("-o", arguments.output, "the zip to write, in UBO2003's layout")->required();
+  app.add_option("--pattern", arguments.pattern, "the surface to bake")
+      ->required()
+      ->check(CLI::IsMember(patterns));
+  app.add_option("--size", arguments.size, "texels on a side")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--directions", arguments.directions, "of views and lights")
+      ->check(CLI::IsMember({"ubo2003"}))
+      ->capture_default_str();
+  app.add_option("--samples", arguments.bake.samples, "paths a texel and view")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option("--bounces", arguments.bake.bounces, "interreflections")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  app.add_option("--scale", arguments.scale,
+                 "factor of all values (default: at most 1, so that at most 0.1 % of them clip)")
+      ->check(CLI::PositiveNumber);
+}
+
+/// Four samples of the surface a texel at the usual sizes, two at large ones: a whole number, so that every
+/// texel sees as much of it.
+int surfaceResolution(int size) {
+  return size * std::max(2, (256 + size - 1) / size);
+}
+
+Result<ExitCode> bake(const Tool& tool, const Arguments& arguments) {
+  const std::filesystem::path output = arguments.output;
+  if (output.extension() != ".zip") return tool.badUsage("the output must be a .zip: " + arguments.output);
+  const Stopwatch building;
+  WEFT_TRY(HeightField field, makePattern(arguments.pattern, surfaceResolution(arguments.size)));
+  BakeOptions options = arguments.bake;
+  options.width = options.height = arguments.size;
+  WEFT_TRY(const BtfBaker baker, BtfBaker::create(std::move(field), options));
+  const double buildSeconds = building.seconds();
+
+  const Stopwatch baking;
+  const double texels = static_cast<double>(arguments.size) * arguments.size;
+  const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  WEFT_TRY(
+      BakedBtf baked,
+      BakedBtf::bake(baker, folder,
+                     tool.progress("baking", texels * static_cast<double>(options.views.size()), "texels")));
+  const double bakeSeconds = baking.seconds();
+
+  const Stopwatch writing;
+  const float scale = arguments.scale > 0.0f ? arguments.scale : baked.scaleFor(kClippedShare);
+  const double clippedShare = baked.clippedShare(scale);
+  WEFT_TRY_VOID(baked.writeZip(output, arguments.pattern, scale,
+                               tool.progress("writing", static_cast<double>(options.views.size()), "views")));
+  const double writeSeconds = writing.seconds();
+
+  WEFT_TRY_VOID(tool.writeJson({
+      {"pattern", arguments.pattern},
+      {"texels", arguments.size * arguments.size},
+      {"views", options.views.size()},
+      {"lights", options.lights.size()},
+      {"samples", options.samples},
+      {"bounces", options.bounces},
+      {"scale", scale},
+      {"clipped_share", clippedShare},
+      {"bytes", {{"file", std::filesystem::file_size(output)}}},
+      {"seconds", {{"build", buildSeconds}, {"bake", bakeSeconds}, {"write", writeSeconds}}},
+      {"peak_memory_bytes", peakMemoryBytes()},
+      {"threads", tool.threads()},
+  }));
+  if (!tool.quiet() && !tool.jsonOnStdout())
+    fmt::print("{}: {} x {} texels, {} views x {} lights, scale {:.4g}, {:.3g} % of values clipped\n",
+               output.string(), arguments.size, arguments.size, options.views.size(), options.lights.size(),
+               scale, 100.0 * clippedShare);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"weft-bake", "Ray-traces a bidirectional texture function from small-scale geometry.",
+             "weft-bake -o corduroy.zip --pattern corduroy --size 64", WEFT_VERSION});
+  Arguments arguments;
+  addOptions(tool.options(), arguments);
+  return tool.run(argc, argv, [&] { return bake(tool, arguments); });
+}
