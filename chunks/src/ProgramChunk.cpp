@@ -40,7 +40,7 @@ Result<GLShader> compile(const ShaderSource& source, GLenum stage, const std::st
   glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
   if (compiled) return shader;
   std::string place;
-  const std::string log = text.withFileNames(shaderLog(shader), place);
+  const std::string log = text.withPlaces(shaderLog(shader), place);
   return fail("the shader does not compile: " + log, place.empty() ? file : place);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "weft/shaders/EmbeddedShaders.h"
@@ -13,22 +14,18 @@ namespace weft {
 
 namespace {
 
-/// Follows the includes of one stage.
+/// Follows the includes of one stage. Without `#line`: Mesa loses the file number of most errors.
 class Assembler {
  public:
   explicit Assembler(const ShaderSource& source) : source_(source) {}
 
   Result<void> add(const std::string& file, const std::string& includedFrom) {
-    if (std::find(result_.files.begin(), result_.files.end(), file) != result_.files.end()) return {};
+    if (!added_.insert(file).second) return {};
     WEFT_TRY(const std::string text, load(file, includedFrom));
-    const std::size_t number = result_.files.size();
-    result_.files.push_back(file);
-    if (number > 0) append(fmt::format("#line 1 {}", number));
-
     std::istringstream lines(text);
     std::string line;
-    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
-      WEFT_TRY_VOID(addLine(line, lineNumber, number));
+    for (int number = 1; std::getline(lines, line); ++number)
+      WEFT_TRY_VOID(addLine(line, fmt::format("{}:{}", file, number)));
     return {};
   }
 
@@ -46,36 +43,35 @@ class Assembler {
     return fail(fmt::format("there is no shader file \"{}\"", file), includedFrom);
   }
 
-  Result<void> addLine(const std::string& line, int lineNumber, std::size_t fileNumber) {
-    const std::string resume = fmt::format("#line {} {}", lineNumber + 1, fileNumber);
+  Result<void> addLine(const std::string& line, const std::string& place) {
     const std::size_t start = std::min(line.find_first_not_of(" \t"), line.size());
     const std::string_view code = std::string_view(line).substr(start);
-    if (code.starts_with("#include")) {
-      const std::string place = fmt::format("{}:{}", result_.files[fileNumber], lineNumber);
-      const std::size_t open = code.find('"');
-      const std::size_t close = code.rfind('"');
-      if (open == close) return fail("expected #include \"FILE\"", place);
-      const std::string name(code.substr(open + 1, close - open - 1));
-      const auto alias = source_.includeAliases.find(name);
-      WEFT_TRY_VOID(add(alias == source_.includeAliases.end() ? name : alias->second, place));
-      append(resume);
-      return {};
-    }
-    append(line);
-    if (code.starts_with("#version")) {
-      for (const auto& [name, value] : source_.defines) append(fmt::format("#define {} {}", name, value));
-      append(resume);
-    }
+    if (code.starts_with("#include")) return include(code, place);
+    append(line, place);
+    if (code.starts_with("#version"))
+      for (const auto& [name, value] : source_.defines)
+        append(fmt::format("#define {} {}", name, value), "the define " + name);
     return {};
   }
 
-  void append(std::string_view line) {
+  Result<void> include(std::string_view code, const std::string& place) {
+    const std::size_t open = code.find('"');
+    const std::size_t close = code.rfind('"');
+    if (open == close) return fail("expected #include \"FILE\"", place);
+    const std::string name(code.substr(open + 1, close - open - 1));
+    const auto alias = source_.includeAliases.find(name);
+    return add(alias == source_.includeAliases.end() ? name : alias->second, place);
+  }
+
+  void append(std::string_view line, std::string place) {
     result_.text += line;
     result_.text += '\n';
+    result_.places.push_back(std::move(place));
   }
 
   const ShaderSource& source_;
   ShaderText result_;
+  std::set<std::string> added_;
 };
 
 /// The number at the front of `text`, which is removed; false without one.
@@ -88,30 +84,30 @@ bool takeNumber(std::string_view& text, std::size_t& number) {
 
 }  // namespace
 
-std::string ShaderText::withFileNames(std::string_view log, std::string& firstPlace) const {
-  std::string named;
+std::string ShaderText::withPlaces(std::string_view log, std::string& firstPlace) const {
+  std::string placed;
   while (!log.empty()) {
     const std::size_t length = std::min(log.find('\n'), log.size());
     std::string_view line = log.substr(0, length);
     log.remove_prefix(std::min(length + 1, log.size()));
 
-    // Mesa and NVIDIA write "STRING:LINE(COLUMN): error" and "STRING(LINE) : error", others "ERROR:
-    // STRING:LINE: ".
-    if (line.starts_with("ERROR: ")) line.remove_prefix(7);
-    std::string_view rest = line;
-    std::size_t file = 0, lineNumber = 0;
-    if (takeNumber(rest, file) && file < files.size() && (rest.starts_with(':') || rest.starts_with('('))) {
-      const std::string_view afterFile = rest;
-      rest.remove_prefix(1);
-      if (takeNumber(rest, lineNumber) && firstPlace.empty())
-        firstPlace = fmt::format("{}:{}", files[file], lineNumber);
-      named += files[file];
-      line = afterFile;
+    // Mesa writes "0:LINE(COLUMN): error", NVIDIA "0(LINE) : error", others "ERROR: 0:LINE: ".
+    std::string_view rest = line.starts_with("ERROR: ") ? line.substr(7) : line;
+    if (rest.starts_with("0:") || rest.starts_with("0(")) {
+      const std::string_view afterNumber = rest.starts_with("0(") ? ")" : "";
+      rest.remove_prefix(2);
+      std::size_t number = 0;
+      if (takeNumber(rest, number) && number >= 1 && number <= places.size() &&
+          rest.starts_with(afterNumber)) {
+        placed += places[number - 1];
+        line = rest.substr(afterNumber.size());
+        if (firstPlace.empty()) firstPlace = places[number - 1];
+      }
     }
-    named += line;
-    if (!log.empty()) named += '\n';
+    placed += line;
+    if (!log.empty()) placed += '\n';
   }
-  return named;
+  return placed;
 }
 
 Result<ShaderText> assembleShader(const ShaderSource& source, const std::string& file) {

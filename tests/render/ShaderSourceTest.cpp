@@ -21,17 +21,16 @@ class ShaderSourceTest : public testing::Test {
   ShaderSource source;
 };
 
-TEST_F(ShaderSourceTest, PutsEachIncludeInOnceAndKeepsLineNumbers) {
+TEST_F(ShaderSourceTest, PutsEachIncludeInOnceAndKnowsWhereLinesCameFrom) {
   writeText(folder / "a.frag",
             "// first\n#version 450 core\n#include \"b.glsl\"\n#include \"c.glsl\"\nend\n");
   writeText(folder / "b.glsl", "#include \"c.glsl\"\nb\n");
   writeText(folder / "c.glsl", "c\n");
   source.defines = {{"COUNT", "3"}};
   const ShaderText shader = valueOf(assembleShader(source, "a.frag"));
-  EXPECT_EQ(shader.text,
-            "// first\n#version 450 core\n#define COUNT 3\n#line 3 0\n"
-            "#line 1 1\n#line 1 2\nc\n#line 2 1\nb\n#line 4 0\n#line 5 0\nend\n");
-  EXPECT_EQ(shader.files, (std::vector<std::string>{"a.frag", "b.glsl", "c.glsl"}));
+  EXPECT_EQ(shader.text, "// first\n#version 450 core\n#define COUNT 3\nc\nb\nend\n");
+  EXPECT_EQ(shader.places, (std::vector<std::string>{"a.frag:1", "a.frag:2", "the define COUNT", "c.glsl:1",
+                                                     "b.glsl:2", "a.frag:5"}));
 }
 
 TEST_F(ShaderSourceTest, AliasesNameTheFileToInclude) {
@@ -40,7 +39,7 @@ TEST_F(ShaderSourceTest, AliasesNameTheFileToInclude) {
   source.includeAliases = {{"model.glsl", "rfnl.glsl"}};
   const ShaderText shader = valueOf(assembleShader(source, "a.frag"));
   EXPECT_THAT(shader.text, HasSubstr("lobes"));
-  EXPECT_EQ(shader.files.back(), "rfnl.glsl");
+  EXPECT_EQ(shader.places.back(), "rfnl.glsl:1");
 }
 
 TEST_F(ShaderSourceTest, FilesOfTheOverrideFolderWinOverThoseCompiledIn) {
@@ -64,19 +63,19 @@ TEST_F(ShaderSourceTest, MissingAndMalformedIncludesNameFileAndLine) {
   EXPECT_FALSE(assembleShader(source, "a.frag"));
 }
 
-TEST_F(ShaderSourceTest, EveryDriversMessagesGetFileNames) {
-  const ShaderText shader{"", {"a.frag", "b.glsl"}};
-  const auto named = [&](std::string_view log) {
-    std::string place;
-    const std::string text = shader.withFileNames(log, place);
-    return place + "|" + text;
+TEST_F(ShaderSourceTest, EveryDriversMessagesGetPlaces) {
+  const ShaderText shader{"", {"a.frag:1", "b.glsl:7"}};
+  const auto placed = [&](std::string_view log) {
+    std::string first;
+    const std::string text = shader.withPlaces(log, first);
+    return first + "|" + text;
   };
-  EXPECT_EQ(named("1:12(5): error: x\n0:3(1): error: y\n"),
-            "b.glsl:12|b.glsl:12(5): error: x\na.frag:3(1): error: y");
-  EXPECT_EQ(named("1(12) : error C1: x"), "b.glsl:12|b.glsl(12) : error C1: x");
-  EXPECT_EQ(named("ERROR: 1:12: 'x'"), "b.glsl:12|b.glsl:12: 'x'");
-  EXPECT_EQ(named("7:12(5): no such file"), "|7:12(5): no such file");
-  EXPECT_EQ(named("linking failed"), "|linking failed");
+  EXPECT_EQ(placed("0:2(5): error: x\n0:1(1): error: y\n"),
+            "b.glsl:7|b.glsl:7(5): error: x\na.frag:1(1): error: y");
+  EXPECT_EQ(placed("0(2) : error C1: x"), "b.glsl:7|b.glsl:7 : error C1: x");
+  EXPECT_EQ(placed("ERROR: 0:2: 'x'"), "b.glsl:7|b.glsl:7: 'x'");
+  EXPECT_EQ(placed("0:12(5): no such line"), "|0:12(5): no such line");
+  EXPECT_EQ(placed("linking failed"), "|linking failed");
 }
 
 }  // namespace

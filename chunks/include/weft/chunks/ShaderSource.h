@@ -28,11 +28,11 @@ struct ShaderSource {
 /// The text of one stage with its includes put in, each file once.
 struct ShaderText {
   std::string text;
-  std::vector<std::string> files;  ///< by the source string number of `#line`
+  std::vector<std::string> places;  ///< "FILE:LINE" of every line of the text
 
-  /// A compiler's message with file names where it has source string numbers ("mesh.vert:12(5): error").
-  /// `firstPlace` becomes "FILE:LINE" of the first one found.
-  std::string withFileNames(std::string_view log, std::string& firstPlace) const;
+  /// A compiler's message about the text with places instead of line numbers: "mesh.vert:12(5): error".
+  /// `firstPlace` becomes the first of them.
+  std::string withPlaces(std::string_view log, std::string& firstPlace) const;
 };
 
 /// Puts together the stage that starts with `file`, one of the source's two. Fails on a missing file or on an
