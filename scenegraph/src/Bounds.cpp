@@ -4,6 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <utility>
+#include <vector>
 
 #include "weft/core/Contract.h"
 #include "weft/scenegraph/Geometry.h"
@@ -12,12 +16,18 @@
 namespace weft {
 namespace {
 
-void includeBelow(const Node& node, glm::mat4 toWorld, Bounds& bounds) {
-  if (const auto* transform = dynamic_cast<const Transform*>(&node.core())) toWorld *= transform->matrix;
-  if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
-    for (const glm::vec3 position : geometry->mesh()->positions)
-      bounds.include(glm::vec3(toWorld * glm::vec4(position, 1.0f)));
-  for (const auto& child : node.children()) includeBelow(*child, toWorld, bounds);
+template <class Visit>
+void forEachVertex(const Node& root, Visit visit) {
+  std::vector<std::pair<const Node*, glm::mat4>> nodes{{&root, glm::mat4(1.0f)}};
+  while (!nodes.empty()) {
+    auto [node, toWorld] = nodes.back();
+    nodes.pop_back();
+    if (const auto* transform = dynamic_cast<const Transform*>(&node->core())) toWorld *= transform->matrix;
+    if (const auto* geometry = dynamic_cast<const Geometry*>(&node->core()))
+      for (const glm::vec3 position : geometry->mesh()->positions)
+        visit(glm::vec3(toWorld * glm::vec4(position, 1.0f)));
+    for (const auto& child : node->children()) nodes.emplace_back(child.get(), toWorld);
+  }
 }
 
 }  // namespace
@@ -33,36 +43,43 @@ void Bounds::include(glm::vec3 point) {
 
 Bounds boundsOf(const Node& root) {
   Bounds bounds;
-  includeBelow(root, glm::mat4(1.0f), bounds);
+  forEachVertex(root, [&](glm::vec3 vertex) { bounds.include(vertex); });
   return bounds;
 }
 
-Camera frame(const Bounds& bounds, glm::vec3 from, float aspect, float verticalFieldOfView) {
-  WEFT_EXPECT(!bounds.empty() && glm::length(from) > 0.0f && aspect > 0.0f, "there is nothing to frame");
-  const glm::vec3 direction = glm::normalize(from);
-  const glm::vec3 up = std::abs(direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
-  const glm::vec3 right = glm::normalize(glm::cross(up, direction));
-  const glm::vec3 above = glm::cross(direction, right);
-  const float tangentY = std::tan(0.5f * verticalFieldOfView);
-  const float tangentX = aspect * tangentY;
+Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalFieldOfView) {
+  WEFT_EXPECT(glm::length(from) > 0.0f && aspect > 0.0f, "a picture has a direction and an area");
+  const glm::vec3 back = glm::normalize(from);
+  const glm::vec3 up = std::abs(back.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+  const glm::vec3 right = glm::normalize(glm::cross(up, back));
+  const glm::mat3 toCamera = glm::transpose(glm::mat3(right, glm::cross(back, right), back));
+  constexpr float margin = 1.06f;
+  const float tangentY = std::tan(0.5f * verticalFieldOfView) / margin;
+  const glm::vec2 tangent(aspect * tangentY, tangentY);
 
-  // The nearest eye on the line from the centre from which every corner of the box is inside the picture.
-  const float radius = std::max(bounds.radius(), 1e-6f);
-  float distance = 0.0f;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 offset = glm::mix(bounds.minimum, bounds.maximum,
-                                      glm::vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1)) -
-                             bounds.center();
-    const float sideways =
-        std::max(std::abs(glm::dot(offset, right)) / tangentX, std::abs(glm::dot(offset, above)) / tangentY);
-    distance = std::max(distance, sideways + glm::dot(offset, direction));
-  }
-  distance = std::max(1.05f * distance, 1e-3f * radius);
+  // A vertex p (camera axes) is inside for an eye e where |p.x - e.x| <= tangent.x (e.z - p.z), and likewise
+  // for y: two planes a side, of which the outermost vertices decide.
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  glm::vec2 high(-infinity), low(-infinity);
+  float nearest = -infinity, farthest = infinity;
+  forEachVertex(root, [&](glm::vec3 vertex) {
+    const glm::vec3 p = toCamera * vertex;
+    high = glm::max(high, tangent * p.z + glm::vec2(p));
+    low = glm::max(low, tangent * p.z - glm::vec2(p));
+    nearest = std::max(nearest, p.z);
+    farthest = std::min(farthest, p.z);
+  });
+  WEFT_EXPECT(nearest >= farthest, "there is nothing to frame");
+  const glm::vec2 distances = 0.5f * (high + low) / tangent;
+  const float depth = std::max({nearest - farthest, distances.x - farthest, distances.y - farthest, 1e-3f});
+  // At least a little in front of what is nearest, which the planes alone do not ask of a line.
+  const float eye = std::max({distances.x, distances.y, nearest + 0.01f * depth});
+  const glm::vec3 position = glm::vec3(0.5f * (high - low), eye) * toCamera;
 
-  Camera camera = Camera::lookAt(bounds.center() + distance * direction, bounds.center(), up);
+  Camera camera = Camera::lookAt(position, position - back, up);
   camera.verticalFieldOfView = verticalFieldOfView;
-  camera.nearPlane = std::max(distance - 1.01f * radius, 0.01f * distance);
-  camera.farPlane = distance + 1.01f * radius;
+  camera.nearPlane = 0.9f * (eye - nearest);
+  camera.farPlane = 1.1f * (eye - farthest);
   return camera;
 }
 

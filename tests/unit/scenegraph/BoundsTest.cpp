@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -33,26 +34,40 @@ TEST(Bounds, OfNothingAreEmpty) {
   EXPECT_EQ(boundsOf(Node()).radius(), 0.0f);
 }
 
-TEST(Frame, ShowsAllOfTheBoundsAndFillsThePicture) {
-  Bounds bounds;
-  bounds.include({-3, 1, -2});
-  bounds.include({1, 2, 5});
+TEST(Frame, ShowsAllVerticesAndFillsThePicture) {
+  Node root;
+  root.addChild(std::make_shared<Transform>(
+                    glm::scale(glm::translate(glm::mat4(1), glm::vec3(1, 2, 5)), glm::vec3(2, 0.5f, 1))))
+      ->addChild(std::make_shared<Geometry>(std::make_shared<Mesh>(makeSphere())));
   for (const float aspect : {0.5f, 1.0f, 2.0f})
     for (const glm::vec3 from : {glm::vec3(0, 0, 1), glm::vec3(0, 5, 0), glm::vec3(-1, 0.3f, 0.7f)}) {
-      const Camera camera = frame(bounds, from, aspect);
+      const Camera camera = frame(root, from, aspect);
       const glm::mat4 toClip = camera.projection(aspect) * camera.view;
-      float widest = 0.0f;
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point(corner & 1 ? -3 : 1, corner & 2 ? 1 : 2, corner & 4 ? -2 : 5);
-        const glm::vec4 clip = toClip * glm::vec4(point, 1.0f);
+      glm::vec3 low(2), high(-2);
+      for (const glm::vec3 position : makeSphere().positions) {
+        const glm::vec4 clip =
+            toClip * glm::vec4(glm::vec3(1, 2, 5) + glm::vec3(2, 0.5f, 1) * position, 1.0f);
         ASSERT_GT(clip.w, 0.0f);
-        EXPECT_LE(std::abs(clip.z / clip.w), 1.0f);
-        widest = std::max({widest, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+        low = glm::min(low, glm::vec3(clip) / clip.w);
+        high = glm::max(high, glm::vec3(clip) / clip.w);
       }
-      EXPECT_LE(widest, 1.0f);
-      EXPECT_GT(widest, 0.85f);
-      EXPECT_GT(glm::dot(camera.position() - bounds.center(), from), 0.0f);
+      EXPECT_GT(low.z, -1.0f);
+      EXPECT_LT(high.z, 1.0f);
+      // Both sides of the wider direction touch the margin, the other lies within it.
+      EXPECT_NEAR(std::max(high.x, high.y), 1.0f / 1.06f, 1e-4f);
+      EXPECT_NEAR(std::min(low.x, low.y), -1.0f / 1.06f, 1e-4f);
+      EXPECT_GT(glm::dot(camera.position() - glm::vec3(1, 2, 5), from), 0.0f);
     }
+}
+
+TEST(Frame, ShowsASinglePoint) {
+  const auto point = std::make_shared<Mesh>();
+  point->positions = {{3, 4, 5}};
+  const Node root(std::make_shared<Geometry>(point));
+  const Camera camera = frame(root, {1, 1, 1}, 1.0f);
+  const glm::vec4 clip = camera.projection(1.0f) * camera.view * glm::vec4(3, 4, 5, 1);
+  EXPECT_GT(clip.w, 0.0f);
+  EXPECT_LT(glm::length(glm::vec3(clip) / clip.w), 1.0f);
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ struct Bounds {
 /// Around every vertex of every Geometry below `root`, in the coordinates in which `root` stands.
 Bounds boundsOf(const Node& root);
 
-/// A camera that sees all of the bounds, which must not be empty, from the direction `from` (need not be
-/// unit), with near and far planes that enclose it. `aspect`: width / height of the picture.
-Camera frame(const Bounds& bounds, glm::vec3 from, float aspect, float verticalFieldOfView = 0.5f);
+/// The nearest camera that sees every vertex below `root`, with a small margin, from the direction `from`
+/// (need not be unit), with near and far planes that enclose them. There must be something to see. `aspect`:
+/// width / height of the picture.
+Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalFieldOfView = 0.5f);
 
 }  // namespace weft
