@@ -1,6 +1,7 @@
 #include "weft/fitter/BtfBaker.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -174,8 +175,7 @@ Result<void> BtfBaker::Tracer::build() {
   margin = reach * field.spacing;
   offset = 1e-3f * field.spacing;
 
-  // The tree is built by one thread: its shape decides ties between facets, and so the bytes of the result.
-  device = rtcNewDevice("threads=1");
+  device = rtcNewDevice(nullptr);
   if (!device) return fail("Embree cannot start");
   scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -191,6 +191,9 @@ Result<void> BtfBaker::Tracer::build() {
     fillMesh(marginSamples, static_cast<float*>(vertices), static_cast<std::uint32_t*>(quads));
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene, mesh);
+    // The tree's shape decides ties between facets, and so the bytes of the result. (Embree's own option
+    // "threads=1" would slow everything else in the process, too.)
+    const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     rtcCommitScene(scene);
   }
   rtcReleaseGeometry(mesh);
