@@ -32,6 +32,14 @@ T valueOf(Result<T> result) {
   return std::move(*result);
 }
 
+/// A test failure with its message where work that has no value fails.
+inline void requireDone(const Result<void>& result) {
+  if (!result) {
+    ADD_FAILURE() << result.error().message();
+    throw std::runtime_error(result.error().message());
+  }
+}
+
 }  // namespace weft::test
 
 /// Declares the path of a measured file, or skips the test where the data are not installed.

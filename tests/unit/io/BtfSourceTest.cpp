@@ -1,0 +1,344 @@
+#include "weft/io/BtfSource.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "TestImages.h"
+#include "TestSupport.h"
+#include "weft/core/Direction.h"
+#include "weft/io/ImageFile.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using test::requireDone;
+using test::valueOf;
+using testing::HasSubstr;
+
+constexpr int kWidth = 5;
+constexpr int kHeight = 4;
+
+// The byte of a made-up measurement; any two images differ.
+int storedValue(int view, int light, int x, int y, int c) {
+  return (17 + 61 * view + 29 * light + 7 * x + 13 * y + 5 * c) % 256;
+}
+
+Image pairImage(int view, int light) {
+  return test::imageOf(kWidth, kHeight,
+                       [&](int x, int y, int c) { return storedValue(view, light, x, y, c); });
+}
+
+// Three views and two lights in UTIA's naming, written in an order that is not the sorted one. PNG, so that
+// values are exact.
+fs::path makeFolder() {
+  const fs::path folder = test::testFolder() / "cloth";
+  const std::vector<std::string> views{"tv000_pv000", "tv030_pv090", "tv030_pv180"};
+  const std::vector<std::string> lights{"tl000_pl000", "tl075_pl345"};
+  for (int view : {2, 0, 1})
+    for (int light : {1, 0}) {
+      const std::string viewName = views[static_cast<std::size_t>(view)];
+      fs::create_directories(folder / viewName);
+      const std::string file = lights[static_cast<std::size_t>(light)] + "_" + viewName + ".png";
+      requireDone(writePng(folder / viewName / file, pairImage(view, light)));
+    }
+  test::writeBytes(folder / "readme.txt", {'h', 'i'});
+  test::writeBytes(folder / "tv000_pv000" / "preview.png", {'n', 'o'});
+  return folder;
+}
+
+fs::path anImageOf(const fs::path& folder) {
+  return folder / "tv030_pv090" / "tl075_pl345_tv030_pv090.png";
+}
+
+std::size_t viewValues(const BtfDescription& d) {
+  return d.lights.size() * d.texels() * 3;
+}
+
+std::vector<float> readWholeView(const BtfSource& source, int view) {
+  std::vector<float> values(viewValues(source.description()));
+  requireDone(source.readView(view, values));
+  return values;
+}
+
+std::string errorOfOpening(const fs::path& path) {
+  const auto source = openBtf(path);
+  return source ? "opened" : source.error().message();
+}
+
+std::string errorOfReading(const fs::path& path) {
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(path));
+  std::vector<float> values(viewValues(source->description()));
+  for (int view = 0; view < static_cast<int>(source->description().views.size()); ++view)
+    if (const auto result = source->readView(view, values); !result) return result.error().message();
+  return "read";
+}
+
+void expectMadeUpMeasurement(const BtfSource& source) {
+  const BtfDescription& d = source.description();
+  EXPECT_EQ(d.name, "cloth");
+  EXPECT_EQ(d.width, kWidth);
+  EXPECT_EQ(d.height, kHeight);
+  EXPECT_EQ(d.encoding, Encoding::Srgb);
+  EXPECT_TRUE(d.cosineInData);
+  ASSERT_EQ(d.views, (std::vector<glm::vec3>{directionFromDegrees(0, 0), directionFromDegrees(30, 90),
+                                             directionFromDegrees(30, 180)}));
+  ASSERT_EQ(d.lights, (std::vector<glm::vec3>{directionFromDegrees(0, 0), directionFromDegrees(75, 345)}));
+  for (int view = 0; view < 3; ++view) {
+    const std::vector<float> values = readWholeView(source, view);
+    std::size_t i = 0;
+    for (int light = 0; light < 2; ++light)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(values[i++],
+                      decode(Encoding::Srgb, static_cast<float>(storedValue(view, light, x, y, c)) / 255.0f));
+  }
+}
+
+TEST(BtfSource, ReadsAFolderExactly) {
+  expectMadeUpMeasurement(*valueOf(openBtf(makeFolder())));
+}
+
+TEST(BtfSource, NamesAFolderThatEndsInASlash) {
+  expectMadeUpMeasurement(*valueOf(openBtf(makeFolder() / "")));
+}
+
+TEST(BtfSource, ReadsStoredAndDeflatedZipsExactly) {
+  const fs::path folder = makeFolder();
+  const fs::path zip = folder.parent_path() / "cloth.zip";
+  for (const bool deflate : {false, true}) {
+    test::zipFolder(folder, zip, deflate);
+    expectMadeUpMeasurement(*valueOf(openBtf(zip)));
+  }
+}
+
+TEST(BtfSource, RowsHoldTheSameAsViews) {
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(makeFolder()));
+  constexpr int first = 1;
+  constexpr int rows = 2;
+  std::vector<float> block(static_cast<std::size_t>(rows * kWidth * 3 * 2 * 3));
+  requireDone(source->readRows(first, rows, block));
+  std::size_t i = 0;
+  for (int y = first; y < first + rows; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int view = 0; view < 3; ++view)
+        for (int light = 0; light < 2; ++light)
+          for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(block[i++],
+                      decode(Encoding::Srgb, static_cast<float>(storedValue(view, light, x, y, c)) / 255.0f));
+}
+
+TEST(BtfSource, FitsRowsIntoMemory) {
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(makeFolder()));
+  constexpr std::size_t rowBytes = kWidth * 3 * 2 * 3 * sizeof(float);
+  EXPECT_EQ(source->rowsWithin(0), 1);
+  EXPECT_EQ(source->rowsWithin(3 * rowBytes - 1), 2);
+  EXPECT_EQ(source->rowsWithin(3 * rowBytes), 3);
+  EXPECT_EQ(source->rowsWithin(std::size_t{1} << 40), kHeight);
+}
+
+TEST(BtfSource, MayBeReadFromManyThreads) {
+  const fs::path folder = makeFolder();
+  const fs::path zip = folder.parent_path() / "cloth.zip";
+  test::zipFolder(folder, zip, true);
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));
+  std::vector<std::vector<float>> expected;
+  for (int view = 0; view < 3; ++view) expected.push_back(readWholeView(*source, view));
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 6; ++i)
+    threads.emplace_back([&, view = i % 3] {
+      for (int repeat = 0; repeat < 20; ++repeat)
+        EXPECT_EQ(readWholeView(*source, view), expected[static_cast<std::size_t>(view)]);
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(BtfSource, UnderstandsTheNamesInUse) {
+  const Image image(2, 2, 3);
+  for (const std::string name :
+       {"00008 tl015 pl060 tv030 pv090", "tl015_pl060_tv030_pv090", "img_tv30_pv90_tl15_pl60",
+        "tv30.0_pv090.00_tl15.0_pl60", "tl15-pl60-tv30-pv90-final", "tl015 pl420 tv030 pv450"}) {
+    const fs::path folder = test::testFolder() / "set";
+    fs::create_directories(folder);
+    requireDone(writePng(folder / (name + ".PNG"), image));
+    const BtfDescription d = valueOf(openBtf(folder))->description();
+    EXPECT_EQ(d.lights, std::vector{directionFromDegrees(15, 60)}) << name;
+    EXPECT_EQ(d.views, std::vector{directionFromDegrees(30, 90)}) << name;
+  }
+}
+
+TEST(BtfSource, IgnoresNamesWithoutAllAnglesOrBelowTheHorizon) {
+  for (const std::string name :
+       {"tl015_pl060_tv030.png", "tl015_pl060_tv095_pv000.png", "atl015_pl0_tv0_pv0.png",
+        "tl015_pl060_tv030_pv090.txt", "tl_pl_tv_pv.png"}) {
+    const fs::path folder = test::testFolder();
+    test::writeBytes(folder / name, {0});
+    EXPECT_THAT(errorOfOpening(folder), HasSubstr("no images named by their angles")) << name;
+  }
+}
+
+TEST(BtfSource, TakesAzimuthsAtThePoleAsOne) {
+  const fs::path folder = test::testFolder();
+  const Image image(2, 2, 3);
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", image));
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv090.png", image));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("the same light and view as"));
+}
+
+TEST(BtfSource, DecodesJpegsWithGamma22) {
+  const fs::path folder = test::testFolder() / "jpeg";
+  const Image image = test::imageOf(16, 16, [](int, int, int c) { return 60 + 70 * c; });
+  test::writeBytes(folder / "tl000 pl000 tv000 pv000.jpg", valueOf(encodeJpeg(image, 95)));
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
+  EXPECT_EQ(source->description().encoding, Encoding::Gamma22);
+  const std::vector<float> values = readWholeView(*source, 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    ASSERT_NEAR(std::pow(values[i], 1.0 / 2.2), (60.0 + 70.0 * static_cast<double>(i % 3)) / 255.0,
+                1.5 / 255.0);
+}
+
+TEST(BtfSource, ReadsGreyImagesAsRgb) {
+  const fs::path folder = test::testFolder();
+  Image grey(3, 1, 1);
+  grey.bytes = {0, 100, 255};
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", grey));
+  const std::vector<float> values = readWholeView(*valueOf(openBtf(folder)), 0);
+  const float middle = decode(Encoding::Srgb, 100.0f / 255.0f);
+  EXPECT_EQ(values, (std::vector<float>{0, 0, 0, middle, middle, middle, 1, 1, 1}));
+}
+
+TEST(BtfSource, RefusesWhatIsNotThere) {
+  EXPECT_THAT(errorOfOpening("/no/such/cloth.zip"), HasSubstr("/no/such/cloth.zip: no such file"));
+}
+
+TEST(BtfSource, RefusesAnEmptyFolder) {
+  const fs::path folder = test::testFolder();
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr(folder.string() + ": there are no images"));
+}
+
+TEST(BtfSource, RefusesAFileThatIsNoZip) {
+  const fs::path file = test::testFolder() / "cloth.zip";
+  test::writeBytes(file, {'h', 'i'});
+  EXPECT_THAT(errorOfOpening(file), HasSubstr("cloth.zip: not a complete zip"));
+}
+
+TEST(BtfSource, RefusesAMissingPair) {
+  const fs::path folder = makeFolder();
+  fs::remove(anImageOf(folder));
+  EXPECT_THAT(errorOfOpening(folder),
+              HasSubstr("no image for light (theta 75, phi 345) and view (theta 30, phi 90)"));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("3 views x 2 lights need 6 images, 5 are there"));
+}
+
+TEST(BtfSource, RefusesADuplicatePair) {
+  const fs::path folder = makeFolder();
+  fs::copy(anImageOf(folder), folder / "again tl075 pl345 tv030 pv090.png");
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("the same light and view as"));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("tl075_pl345_tv030_pv090.png"));
+}
+
+TEST(BtfSource, RefusesMixedFormats) {
+  const fs::path folder = makeFolder();
+  fs::rename(anImageOf(folder), anImageOf(folder).replace_extension(".jpg"));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("JPEGs and PNGs are mixed"));
+}
+
+TEST(BtfSource, RefusesImagesOfDifferentSizes) {
+  const fs::path folder = makeFolder();
+  requireDone(writePng(anImageOf(folder), Image(kWidth + 1, kHeight, 3)));
+  EXPECT_THAT(errorOfReading(folder), HasSubstr("tl075_pl345_tv030_pv090.png: the image has 6 x 4 pixels"));
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
+  std::vector<float> block(kWidth * 3 * 2 * 3);
+  EXPECT_FALSE(source->readRows(0, 1, block));
+}
+
+TEST(BtfSource, RefusesWhatIsNoImage) {
+  const fs::path folder = makeFolder();
+  test::writeBytes(anImageOf(folder), {'n', 'o', 't', ' ', 'a', 'n', ' ', 'i', 'm', 'a', 'g', 'e'});
+  EXPECT_THAT(errorOfReading(folder),
+              HasSubstr("tl075_pl345_tv030_pv090.png: this is neither a JPEG nor a PNG"));
+  test::writeBytes(anImageOf(folder), {});
+  EXPECT_THAT(errorOfReading(folder),
+              HasSubstr("tl075_pl345_tv030_pv090.png: this is neither a JPEG nor a PNG"));
+}
+
+TEST(BtfSource, RefusesATruncatedImage) {
+  const fs::path folder = makeFolder();
+  test::Bytes bytes = test::bytesOf(anImageOf(folder));
+  bytes.resize(bytes.size() - 30);
+  test::writeBytes(anImageOf(folder), bytes);
+  EXPECT_THAT(errorOfReading(folder), HasSubstr("tl075_pl345_tv030_pv090.png: the PNG is damaged"));
+}
+
+TEST(BtfSource, RefusesATruncatedZip) {
+  const fs::path folder = makeFolder();
+  const fs::path zip = folder.parent_path() / "cloth.zip";
+  test::zipFolder(folder, zip, false);
+  const test::Bytes whole = test::bytesOf(zip);
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    test::writeBytes(zip, test::Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    ASSERT_THAT(errorOfOpening(zip), HasSubstr("cloth.zip: not a complete zip")) << size;
+  }
+}
+
+TEST(BtfSource, RefusesADamagedEntry) {
+  const fs::path folder = makeFolder();
+  const fs::path zip = folder.parent_path() / "cloth.zip";
+  test::zipFolder(folder, zip, false);
+  test::Bytes bytes = test::bytesOf(zip);
+  const std::string name = "tl075_pl345_tv030_pv090.png";
+  const auto entry = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+  ASSERT_NE(entry, bytes.end());
+  *(entry + static_cast<std::ptrdiff_t>(name.size()) + 60) ^= 1;
+  test::writeBytes(zip, bytes);
+  EXPECT_THAT(errorOfReading(zip), HasSubstr("tl075_pl345_tv030_pv090.png: the entry of the zip is damaged"));
+}
+
+// The central directory's entry claims to unpack to 4 GB - 1.
+TEST(BtfSource, RefusesAnEntryThatUnpacksToTooMuch) {
+  const fs::path folder = makeFolder();
+  const fs::path zip = folder.parent_path() / "cloth.zip";
+  test::zipFolder(folder, zip, true);
+  test::Bytes bytes = test::bytesOf(zip);
+  for (const auto& [signature, sizeOffset] : {std::pair{"PK\3\4", 22}, std::pair{"PK\1\2", 24}})
+    for (auto at = bytes.begin();;) {
+      at = std::search(at, bytes.end(), signature, signature + 4);
+      if (at == bytes.end()) break;
+      std::copy_n("\xfe\xff\xff\xff", 4, at + sizeOffset);
+      at += 4;
+    }
+  test::writeBytes(zip, bytes);
+  EXPECT_THAT(errorOfOpening(zip), HasSubstr("the entry unpacks to 4294967294 bytes"));
+}
+
+// models.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60 degrees.
+TEST(BtfSource, WoolFallsOffWithTheCosine) {
+  WEFT_DATA_FILE(zip, "ubo2003/UBO_WOOL64.zip");
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));
+  const BtfDescription& d = source->description();
+  ASSERT_EQ(d.views.size(), 81u);
+  ASSERT_EQ(d.lights.size(), 81u);
+  ASSERT_EQ(d.width, 64);
+  ASSERT_EQ(d.height, 64);
+  EXPECT_EQ(d.views, d.lights);
+  const std::vector<float> top = readWholeView(*source, 0);
+  const auto meanOfLights = [&](std::size_t first, std::size_t count) {
+    const std::size_t imageValues = d.texels() * 3;
+    double sum = 0.0;
+    for (std::size_t i = first * imageValues; i < (first + count) * imageValues; i += 3)
+      sum += static_cast<double>(luminance({top[i], top[i + 1], top[i + 2]}));
+    return sum / static_cast<double>(count * d.texels());
+  };
+  const double headOn = meanOfLights(0, 1);
+  EXPECT_NEAR(meanOfLights(1, 6) / headOn, 0.963, 0.02);
+  EXPECT_NEAR(meanOfLights(7, 12) / headOn, 0.853, 0.02);
+  EXPECT_NEAR(meanOfLights(19, 18) / headOn, 0.713, 0.02);
+  EXPECT_NEAR(meanOfLights(37, 20) / headOn, 0.463, 0.02);
+}
+
+}  // namespace
+}  // namespace weft
