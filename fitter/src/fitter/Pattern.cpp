@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -60,27 +61,26 @@ float arch(float x) {
 
 /// Three ribs along y with a pile of tufts.
 HeightField::Sample corduroy(glm::vec2 p) {
-  const float wobble = 0.008f * noise(p, {6, 5}, 1) + 0.005f * noise(p, {12, 16}, 2);
+  const float wobble = 0.010f * noise(p, {6, 7}, 1) + 0.006f * noise(p, {12, 20}, 2);
   const float across = 3.0f * (p.x + wobble);
   const float fromMiddle = std::abs(2.0f * (across - std::floor(across)) - 1.0f);
-  const float rib = std::sqrt(std::max(0.0f, 1.0f - std::pow(fromMiddle, 3.0f)));
-  const float tufts = fractalNoise(p, {24, 30}, 2, 3);
-  const float fibres = fractalNoise(p, {60, 60}, 2, 5);
-  const float pile = glm::mix(0.3f, 1.0f, rib);
+  const float rib = std::sqrt(std::max(0.0f, 1.0f - std::pow(fromMiddle, 2.5f)));
+  const float tufts = fractalNoise(p, {26, 34}, 2, 3);
+  const float fibres = fractalNoise(p, {72, 72}, 3, 5);
 
   HeightField::Sample sample;
-  sample.height = 0.085f * rib + pile * (0.022f * tufts + 0.010f * fibres);
-  const float shade = 1.0f + 0.25f * tufts + 0.3f * fibres + 0.15f * noise(p, {5, 7}, 9);
-  sample.albedo = shade * glm::mix(glm::vec3(0.20f, 0.095f, 0.04f), glm::vec3(0.46f, 0.26f, 0.11f), rib);
-  sample.specular = 0.05f;
+  sample.height = 0.088f * rib + glm::mix(0.3f, 1.0f, rib) * (0.017f * tufts + 0.0045f * fibres);
+  const float shade = 1.0f + 0.45f * tufts + 0.6f * fibres + 0.15f * noise(p, {5, 7}, 9);
+  sample.albedo = shade * glm::mix(glm::vec3(0.10f, 0.045f, 0.016f), glm::vec3(0.34f, 0.18f, 0.065f), rib);
+  sample.specular = 0.03f;
   return sample;
 }
 
 /// The highest of the yarns that cross at a place: plain weave of four by four, warp light, weft blue.
 HeightField::Sample weave(glm::vec2 p) {
   constexpr float kYarns = 4.0f;
-  constexpr float kHalfWidth = 0.47f;
-  constexpr float kThickness = 0.045f;
+  constexpr float kHalfWidth = 0.44f;
+  constexpr float kThickness = 0.050f;
   HeightField::Sample sample;
   sample.height = -0.06f;
   sample.albedo = glm::vec3(0.05f);
@@ -98,7 +98,7 @@ HeightField::Sample weave(glm::vec2 p) {
     const float twist = std::cos(2.0f * kPi * (3.0f * along + 1.1f * offset));
     const float fibre = fractalNoise(p, isWarp ? glm::ivec2(64, 32) : glm::ivec2(32, 64), 2, seed + 1);
     const float height =
-        0.030f * centre + kThickness * arch(offset) + 0.0045f * twist * arch(offset) + 0.005f * fibre;
+        0.030f * centre + kThickness * arch(offset) + 0.0035f * twist * arch(offset) + 0.005f * fibre;
     if (height <= sample.height) continue;
     sample.height = height;
     const glm::vec3 colour = isWarp ? glm::vec3(0.66f, 0.59f, 0.46f) : glm::vec3(0.07f, 0.15f, 0.36f);
@@ -132,13 +132,14 @@ HeightField::Sample tiles(glm::vec2 p) {
   }
   const float bevel = std::min(edge / 0.09f, 1.0f);
   const glm::vec2 tilt = 0.012f * glm::vec2(2.0f * random(62) - 1.0f, 2.0f * random(63) - 1.0f);
-  sample.height = 0.020f + 0.022f * arch(1.0f - bevel) + 0.006f * random(64) + within.x * tilt.x +
-                  within.y * tilt.y + 0.0012f * noise(p, {16, 16}, 65);
+  sample.height = 0.020f + 0.022f * arch(1.0f - bevel) + 0.006f * random(64) -
+                  0.030f * glm::dot(within, within) + within.x * tilt.x + within.y * tilt.y +
+                  0.0012f * noise(p, {16, 16}, 65);
   const std::array<glm::vec3, 4> glazes{glm::vec3(0.05f, 0.27f, 0.30f), glm::vec3(0.10f, 0.36f, 0.37f),
                                         glm::vec3(0.03f, 0.17f, 0.26f), glm::vec3(0.52f, 0.50f, 0.42f)};
   const glm::vec3 glaze = glazes[std::min(static_cast<std::size_t>(4.0f * random(66)), std::size_t{3})];
   sample.albedo = glaze * (0.85f + 0.15f * bevel + 0.12f * fractalNoise(p, {20, 20}, 3, 67));
-  sample.specular = 0.14f;
+  sample.specular = 0.05f;
   return sample;
 }
 
@@ -173,7 +174,7 @@ struct Pattern {
 };
 
 constexpr std::array<Pattern, 4> kPatterns{
-    {{"corduroy", corduroy, 0.5f}, {"weave", weave, 0.45f}, {"tiles", tiles, 0.2f}, {"bumps", bumps, 0.3f}}};
+    {{"corduroy", corduroy, 0.5f}, {"weave", weave, 0.45f}, {"tiles", tiles, 0.22f}, {"bumps", bumps, 0.3f}}};
 
 }  // namespace
 
