@@ -41,7 +41,7 @@ RenderTarget::RenderTarget(int width, int height, Precision precision)
   WEFT_EXPECT(width > 0 && height > 0, "a render target has a positive size");
 }
 
-void RenderTarget::bindAndClear(GLContext& context, const float (&background)[4]) const {
+void RenderTarget::bindAndClear(GLContext& context, const glm::vec4& background) const {
   const int limit = context.limits().textureSize;
   if (width_ > limit || height_ > limit) {
     context.report({fmt::format("a picture of {} x {} is larger than the {} x {} that this OpenGL allows",
@@ -55,7 +55,7 @@ void RenderTarget::bindAndClear(GLContext& context, const float (&background)[4]
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects.framebuffer);
   glViewport(0, 0, width_, height_);
   const float farthest = 1.0f;
-  glClearNamedFramebufferfv(objects.framebuffer, GL_COLOR, 0, background);
+  glClearNamedFramebufferfv(objects.framebuffer, GL_COLOR, 0, &background.x);
   glClearNamedFramebufferfv(objects.framebuffer, GL_DEPTH, 0, &farthest);
 }
 

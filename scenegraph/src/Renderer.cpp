@@ -158,8 +158,7 @@ Result<void> Renderer::render(GLContext& context, const Node& root, const Camera
   fill(objects.frame, &frame, sizeof frame);
   if (!blocks.empty()) fill(objects.objects, blocks.data(), blocks.size());
 
-  const glm::vec4& color = options.background;
-  target.bindAndClear(context, {color.r, color.g, color.b, color.a});
+  target.bindAndClear(context, options.background);
   if (!context.failed()) draw(context, scene.draws.items(), objects);
   RenderTarget::unbind();
   return context.takeErrors();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
 
 #include "weft/chunks/GLContext.h"
@@ -17,8 +18,9 @@ class RenderTarget {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Makes it the place that is drawn to, over its whole area, and clears it; unbind() ends that.
-  void bindAndClear(GLContext& context, const float (&background)[4]) const;
+  /// Makes it the place that is drawn to, over its whole area, and clears it to linear RGBA; unbind() ends
+  /// that.
+  void bindAndClear(GLContext& context, const glm::vec4& background) const;
   static void unbind();
 
   /// The picture, channels R, G, B, A; zeros where nothing was rendered. `downsample` n averages n x n pixels
