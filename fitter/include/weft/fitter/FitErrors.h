@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "weft/core/Color.h"
+
+namespace weft {
+
+/// The error of one texel in one space and one measure: sums over its measured pairs.
+struct ErrorSums {
+  double absolute = 0.0;
+  double squared = 0.0;
+};
+
+/// Index of luminance and RGB in the arrays below.
+enum class ErrorMeasure { Luminance, Rgb };
+enum class ErrorSpace { Stored, Linear };
+
+/// Errors of one texel over all its pairs (paper M eq. 2 before the division). RGB errors are means over the
+/// three channels.
+struct TexelErrors {
+  std::array<std::array<ErrorSums, 2>, 2> sums{};  ///< [space][measure]
+  double grazingAbsolute = 0.0;                    ///< stored luminance, theta_v >= 60 degrees
+  std::size_t pairs = 0;
+  std::size_t grazingPairs = 0;
+  float peak = 0.0f;  ///< the largest linear value of the data
+
+  /// Adds one pair: linear RGB with n.l of data and model, and what they are when stored.
+  void add(glm::vec3 data, glm::vec3 model, Encoding encoding, bool grazing);
+};
+
+/// Average, extremes and 95th percentile over texels of eps (paper M eq. 2), and root mean square error over
+/// everything.
+struct ErrorStatistics {
+  double average = 0.0, minimum = 0.0, maximum = 0.0, percentile95 = 0.0;
+  double rootMeanSquare = 0.0;
+  double psnr = 0.0;  ///< in dB; against a peak of 1 for stored and the data's largest value for linear;
+                      ///< infinite for no error
+};
+
+/// The errors of a fit, on luminance and RGB, in stored and linear values.
+struct FitErrors {
+  std::array<std::array<ErrorStatistics, 2>, 2> statistics{};  ///< [space][measure]
+  std::array<double, 2> psnrPeak{1.0, 1.0};                    ///< [space]
+  double grazing = 0.0;  ///< eps of stored luminance over theta_v >= 60 degrees
+  std::size_t texels = 0;
+
+  const ErrorStatistics& of(ErrorSpace space, ErrorMeasure measure) const {
+    return statistics[static_cast<std::size_t>(space)][static_cast<std::size_t>(measure)];
+  }
+};
+
+/// Sums texels in their order, so that the result is the same for any number of threads.
+FitErrors summarize(std::span<const TexelErrors> texels);
+
+/// The fields `epsilon`, `rmse`, `psnr`, `psnr_peak` of `weft-fit --json` as JSON text, without time, host or
+/// path.
+std::string toJson(const FitErrors& errors);
+
+}  // namespace weft
