@@ -1,4 +1,4 @@
-#include "ProgressPrinter.h"
+#include "weft/tool/ProgressPrinter.h"
 
 #include <fmt/format.h>
 

@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "ProgressPrinter.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Contract.h"
+#include "weft/tool/ProgressPrinter.h"
 
 namespace weft {
 namespace {
