@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -60,14 +61,32 @@ std::uint32_t reverseBits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
+/// Where a random permutation of 0..count-1, which `key` decides, takes `index`: a bijection of the next
+/// power of two, repeated until it lands within.
+std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t key) {
+  const std::uint32_t mask = std::bit_ceil(count) - 1;
+  const auto odd = static_cast<std::uint32_t>(key) | 1u;
+  const auto shift = static_cast<std::uint32_t>(key >> 32);
+  do {
+    for (int round = 0; round < 3; ++round) {
+      index = (index * odd + shift) & mask;
+      index ^= index >> 1;
+      index ^= index >> 3;
+    }
+  } while (index >= count);
+  return index;
+}
+
 /// Point `sample` of a Hammersley set of `count` in the unit square, shifted by a random amount that `key`
-/// decides: stratified in both axes for every count.
+/// decides: stratified in both axes for every count. Points of different keys are independent, because each
+/// key also puts its set into an order of its own.
 glm::vec2 stratifiedPoint(int sample, int count, std::uint64_t key) {
   const std::uint64_t shift = mix(key);
+  const std::uint32_t index =
+      permuted(static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(count), mix(shift));
   const float x =
-      static_cast<float>(sample) / static_cast<float>(count) + toUnit(static_cast<std::uint32_t>(shift));
-  const float y = toUnit(reverseBits(static_cast<std::uint32_t>(sample))) +
-                  toUnit(static_cast<std::uint32_t>(shift >> 32));
+      static_cast<float>(index) / static_cast<float>(count) + toUnit(static_cast<std::uint32_t>(shift));
+  const float y = toUnit(reverseBits(index)) + toUnit(static_cast<std::uint32_t>(shift >> 32));
   return {x - std::floor(x), y - std::floor(y)};
 }
 
