@@ -76,6 +76,7 @@ Result<std::shared_ptr<const Material>> GltfMaterials::makeBtf(const tinygltf::M
   WEFT_TRY(const glm::vec2 scale, btfScale(file_, extension));
   BTFMaterialOptions options = options_.btf;
   options.textureScale *= scale;
+  options.doubleSided |= material.doubleSided;
   auto made = loadBTFMaterial(resolve(file_, extension.Get("uri").Get<std::string>()), options);
   if (!made) return becauseOf(std::move(made).error(), file_, "reflectance field of " + quoted(material));
   return std::shared_ptr<const Material>(std::move(*made));

@@ -1,0 +1,355 @@
+// Renders a glTF scene or one of the built-in shapes, without a window, to a picture.
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/ext/scalar_constants.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "weft/io/ExrFile.h"
+#include "weft/io/ImageFile.h"
+#include "weft/materials/LambertMaterial.h"
+#include "weft/scene_io/BTFMaterialLoader.h"
+#include "weft/scene_io/GltfLoader.h"
+#include "weft/scenegraph/Geometry.h"
+#include "weft/scenegraph/HeadlessWindow.h"
+#include "weft/scenegraph/Light.h"
+#include "weft/scenegraph/MaterialGroup.h"
+#include "weft/scenegraph/Renderer.h"
+#include "weft/scenegraph/Shapes.h"
+#include "weft/scenegraph/Transform.h"
+#include "weft/tool/Tool.h"
+
+namespace {
+
+using namespace weft;
+
+constexpr int kSupersampling = 2;
+constexpr int kLargestSide = 8192;
+const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
+// Linear; 0x28 of 255 in sRGB.
+const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
+
+struct Arguments {
+  std::string scene;
+  std::string output;
+  std::vector<std::string> size{"800x600"};
+  std::string camera;
+  std::vector<std::string> lights;
+  std::vector<std::string> materials;
+  float uvScale = 1.0f;
+  int views = 3;
+  int frames = 0;
+};
+
+/// What the words of the command line mean.
+struct Settings {
+  struct PointOfView {
+    glm::vec3 eye;
+    glm::vec3 target;
+  };
+  struct Lamp {
+    glm::vec3 place;
+    glm::vec3 color;
+  };
+
+  std::string scene;
+  int width = 0;
+  int height = 0;
+  std::string cameraName;                // empty for none
+  std::optional<PointOfView> viewpoint;  // instead of a name
+  std::vector<Lamp> lamps;
+  std::map<std::string, std::string> materialFiles;
+};
+
+std::optional<std::vector<float>> numbers(const std::string& text) {
+  std::vector<float> values;
+  std::stringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) {
+    float value = 0.0f;
+    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value)) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
+}
+
+std::optional<glm::vec3> vectorFrom(const std::string& text) {
+  const auto values = numbers(text);
+  if (!values || values->size() != 3) return std::nullopt;
+  return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+std::optional<int> sideFrom(const std::string& text) {
+  int side = 0;
+  if (!CLI::detail::lexical_cast(text, side) || side < 1 || side > kLargestSide) return std::nullopt;
+  return side;
+}
+
+/// "A:B" as its two sides; B is empty without a colon.
+std::pair<std::string, std::string> splitAt(const std::string& text, char separator) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return {text, {}};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+/// "--size WxH" or "--size W H", which may have taken the SCENE behind it along.
+bool readSize(Arguments& arguments, Settings& settings) {
+  std::vector<std::string> words = arguments.size;
+  if (const auto [width, height] = splitAt(words[0], 'x'); !height.empty()) {
+    words[0] = width;
+    words.insert(words.begin() + 1, height);
+  }
+  if (words.size() == 3 && arguments.scene.empty()) arguments.scene = words[2];
+  if (words.size() < 2 || (words.size() == 3 && arguments.scene != words[2])) return false;
+  const auto width = sideFrom(words[0]), height = sideFrom(words[1]);
+  if (!width || !height) return false;
+  settings.width = *width;
+  settings.height = *height;
+  return true;
+}
+
+bool readCamera(const std::string& text, Settings& settings) {
+  const auto [eyeText, targetText] = splitAt(text, ':');
+  const auto eye = vectorFrom(eyeText), target = vectorFrom(targetText);
+  if (eye && target && *eye != *target)
+    settings.viewpoint = {*eye, *target};
+  else if (eye)
+    return false;  // a place without a target is no name
+  else
+    settings.cameraName = text;
+  return true;
+}
+
+bool readLamp(const std::string& text, Settings& settings) {
+  const auto [placeText, colorText] = splitAt(text, ':');
+  const auto place = vectorFrom(placeText);
+  const auto color = colorText.empty() ? glm::vec3(1.0f) : vectorFrom(colorText);
+  if (!place || !color || glm::any(glm::lessThan(*color, glm::vec3(0.0f)))) return false;
+  settings.lamps.push_back({*place, *color});
+  return true;
+}
+
+bool readMaterial(const std::string& text, Settings& settings) {
+  const auto [name, file] = splitAt(text, '=');
+  if (file.empty()) return false;
+  settings.materialFiles[name] = file;
+  return true;
+}
+
+/// The settings, or what is wrong with the command line.
+tl::expected<Settings, std::string> readSettings(Arguments arguments) {
+  Settings settings;
+  if (!readSize(arguments, settings))
+    return tl::unexpected(fmt::format("--size takes WxH or W H, 1 to {} pixels", kLargestSide));
+  if (arguments.scene.empty()) return tl::unexpected<std::string>("SCENE is required");
+  settings.scene = arguments.scene;
+  if (!arguments.output.ends_with(".png") && !arguments.output.ends_with(".exr"))
+    return tl::unexpected<std::string>("--output must end with .png or .exr");
+  if (!readCamera(arguments.camera, settings))
+    return tl::unexpected<std::string>("--camera takes a name or x,y,z:tx,ty,tz");
+  for (const std::string& light : arguments.lights)
+    if (!readLamp(light, settings)) return tl::unexpected<std::string>("--light takes x,y,z or x,y,z:r,g,b");
+  for (const std::string& material : arguments.materials)
+    if (!readMaterial(material, settings))
+      return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");
+  return settings;
+}
+
+Result<GltfScene> makeShape(const std::string& name, const GltfOptions& options) {
+  std::shared_ptr<const Mesh> mesh;
+  if (name == "plane") mesh = std::make_shared<const Mesh>(makePlane());
+  if (name == "sphere") mesh = std::make_shared<const Mesh>(makeSphere());
+  if (name == "cloth") mesh = std::make_shared<const Mesh>(makeDrapedCloth());
+  if (!mesh)
+    return fail("there is no such shape", "shape:" + name, "try shape:plane, shape:sphere or shape:cloth");
+  std::shared_ptr<const Material> material;
+  if (const auto found = options.replacements.find("*"); found != options.replacements.end())
+    material = found->second;
+  else
+    material = std::make_shared<LambertMaterial>(
+        LambertOptions{.baseColor = glm::vec4(1.0f), .baseColorTexture = nullptr, .doubleSided = true});
+  GltfScene scene;
+  scene.root = std::make_shared<Node>(std::make_shared<MaterialGroup>(material));
+  scene.root->addChild(std::make_shared<Geometry>(mesh), name);
+  scene.bounds = boundsOf(*scene.root);
+  return scene;
+}
+
+Result<GltfScene> loadScene(const Settings& settings, BTFMaterialOptions btf) {
+  constexpr std::string_view shapePrefix = "shape:";
+  const bool isShape = settings.scene.starts_with(shapePrefix);
+  btf.doubleSided = isShape;  // the inside of the cloth shows
+  GltfOptions options;
+  options.btf = btf;
+  options.lights = settings.lamps.empty();
+  for (const auto& [name, file] : settings.materialFiles) {
+    WEFT_TRY(options.replacements[name], loadBTFMaterial(file, btf));
+  }
+  WEFT_TRY(GltfScene scene, isShape ? makeShape(settings.scene.substr(shapePrefix.size()), options)
+                                    : loadGltf(settings.scene, options));
+  for (const auto& [name, file] : settings.materialFiles)
+    if (name != "*" &&
+        std::find(scene.materials.begin(), scene.materials.end(), name) == scene.materials.end())
+      return fail(
+          "there is no material \"" + name + "\"", settings.scene,
+          scene.materials.empty() ? "use *=" + file : fmt::format("its materials are {}", scene.materials));
+  return scene;
+}
+
+/// A camera at a place of its own, whose clipping planes enclose the scene.
+Camera cameraAt(const Settings::PointOfView& viewpoint, const Bounds& bounds) {
+  const glm::vec3 direction = glm::normalize(viewpoint.target - viewpoint.eye);
+  const bool vertical = std::abs(direction.y) > 0.999f;
+  Camera camera =
+      Camera::lookAt(viewpoint.eye, viewpoint.target, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
+  const float distance = glm::distance(viewpoint.eye, bounds.center());
+  const float radius = std::max(bounds.radius(), 1e-6f);
+  camera.farPlane = distance + 1.01f * radius;
+  camera.nearPlane = std::max(distance - 1.01f * radius, 1e-3f * camera.farPlane);
+  return camera;
+}
+
+Result<Camera> chooseCamera(const Settings& settings, const GltfScene& scene) {
+  if (settings.viewpoint) return cameraAt(*settings.viewpoint, scene.bounds);
+  for (const GltfScene::NamedCamera& named : scene.cameras)
+    if (settings.cameraName.empty() || named.name == settings.cameraName) return named.camera;
+  if (settings.cameraName.empty())
+    return frame(*scene.root, kDefaultView,
+                 static_cast<float>(settings.width) / static_cast<float>(settings.height));
+  std::vector<std::string> names;
+  for (const GltfScene::NamedCamera& named : scene.cameras) names.push_back(named.name);
+  return fail("there is no camera \"" + settings.cameraName + "\"", settings.scene,
+              fmt::format("its cameras are {}", names));
+}
+
+/// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their
+/// colour.
+void addLamps(std::vector<Settings::Lamp> lamps, const Camera& camera, GltfScene& scene) {
+  const glm::vec3 center = scene.bounds.center();
+  if (lamps.empty() && scene.lights == 0) {
+    const glm::mat3 toWorld = glm::transpose(glm::mat3(camera.view));
+    lamps.push_back(
+        {center + 4.0f * std::max(scene.bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
+         glm::vec3(1.0f)});
+  }
+  for (const Settings::Lamp& lamp : lamps) {
+    const glm::vec3 offset = lamp.place - center;
+    const glm::vec3 intensity = glm::pi<float>() * glm::dot(offset, offset) * lamp.color;
+    scene.root->addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), lamp.place)))
+        ->addChild(std::make_shared<PointLight>(intensity));
+  }
+}
+
+/// Milliseconds of whole frames, in their order; each ends when GL has finished it.
+Result<std::vector<double>> timeFrames(int count, Renderer& renderer, GLContext& context, const Node& root,
+                                       const Camera& camera, const RenderTarget& target) {
+  std::vector<double> times;
+  for (int frame = 0; frame < count; ++frame) {
+    const auto start = std::chrono::steady_clock::now();
+    WEFT_TRY_VOID(renderer.render(context, root, camera, target));
+    glFinish();
+    times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  return times;
+}
+
+Result<void> writePicture(const std::string& path, const FloatImage& picture) {
+  if (path.ends_with(".png")) return writePng(path, picture);
+  return writeExr(path, picture);
+}
+
+nlohmann::ordered_json timesAsJson(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return {{"median", times[times.size() / 2]}, {"min", times.front()}, {"max", times.back()}};
+}
+
+Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
+  const auto settings = readSettings(arguments);
+  if (!settings) return tool.badUsage(settings.error());
+  WEFT_TRY(GltfScene scene, loadScene(*settings, {.textureScale = glm::vec2(arguments.uvScale),
+                                                  .interpolatedViews = arguments.views}));
+  if (!tool.quiet())
+    for (const std::string& warning : scene.warnings)
+      fmt::print(stderr, "weft-render: {}: {}\n", settings->scene, warning);
+  WEFT_TRY(const Camera camera, chooseCamera(*settings, scene));
+  addLamps(settings->lamps, camera, scene);
+
+  WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
+  GLContext& context = window->context();
+  Renderer renderer;
+  const bool png = arguments.output.ends_with(".png");
+  const RenderTarget target(kSupersampling * settings->width, kSupersampling * settings->height,
+                            png ? Precision::Half : Precision::Float);
+  WEFT_TRY_VOID(
+      renderer.render(context, *scene.root, camera, target, {png ? kPictureBackground : glm::vec4(0.0f)}));
+  WEFT_TRY_VOID(writePicture(arguments.output, target.read(context, kSupersampling)));
+
+  nlohmann::ordered_json report{
+      {"scene", settings->scene},   {"output", arguments.output},
+      {"width", settings->width},   {"height", settings->height},
+      {"views", arguments.views},   {"materials", scene.materials},
+      {"warnings", scene.warnings}, {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
+  if (arguments.frames > 0) {
+    const RenderTarget timed(settings->width, settings->height);
+    WEFT_TRY_VOID(timeFrames(1, renderer, context, *scene.root, camera, timed));  // makes the target
+    WEFT_TRY(std::vector<double> times,
+             timeFrames(arguments.frames, renderer, context, *scene.root, camera, timed));
+    report["frames"] = arguments.frames;
+    report["frame_ms"] = timesAsJson(std::move(times));
+  }
+  WEFT_TRY_VOID(tool.writeJson(report));
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"weft-render", "Renders a glTF scene or a built-in shape with measured materials to a picture.",
+             "weft-render shape:cloth --material '*=wool.rf.exr' --uv-scale 12 -o wool.png", WEFT_VERSION});
+  Arguments arguments;
+  CLI::App& options = tool.options();
+  options.add_option("SCENE", arguments.scene,
+                     "a .gltf or .glb file, or shape:plane, shape:sphere, shape:cloth");
+  options.add_option("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
+      ->required();
+  options.add_option("--size", arguments.size, "WxH or W H in pixels")->expected(1, 3)->capture_default_str();
+  options.add_option("--camera", arguments.camera,
+                     "a camera of the file, or x,y,z:tx,ty,tz: from where to what; default: the file's "
+                     "first, or all of the scene");
+  options
+      .add_option(
+          "--light", arguments.lights,
+          "x,y,z[:r,g,b]: a point light under which white at the scene's centre shows r,g,b (1,1,1); "
+          "repeatable, instead of the file's lights; default without those: one above left of the camera")
+      ->allow_extra_args(false);
+  options
+      .add_option("--material", arguments.materials,
+                  "NAME=FILE.rf.exr: shows a material of the scene as this reflectance field; * for all that "
+                  "are not named; repeatable")
+      ->allow_extra_args(false);
+  options
+      .add_option("--uv-scale", arguments.uvScale,
+                  "repetitions of a reflectance field per unit of texture coordinates")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  options
+      .add_option("--views", arguments.views, "measured views to interpolate between: 1 (the nearest) or 3")
+      ->check(CLI::IsMember({1, 3}))
+      ->capture_default_str();
+  options
+      .add_option("--frames", arguments.frames,
+                  "time this many further frames, without supersampling, for --json")
+      ->check(CLI::Range(0, 1000000));
+  return tool.run(argc, argv, [&] { return render(tool, arguments); });
+}
