@@ -1,0 +1,166 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ProgramRun.h"
+#include "TestSupport.h"
+#include "weft/core/Direction.h"
+#include "weft/io/BtfWriter.h"
+#include "weft/io/ImageFile.h"
+#include "weft/io/ReflectanceFieldFile.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProgramRun;
+using test::requireDone;
+using test::runProgram;
+using test::valueOf;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::vector<glm::vec3> kViews{directionFromDegrees(0, 0), directionFromDegrees(30, 0),
+                                    directionFromDegrees(30, 120)};
+
+fs::path bakedZip() {
+  const fs::path zip = test::testFolder() / "grey.zip";
+  BtfDescription btf;
+  btf.width = 8;
+  btf.height = 4;
+  btf.views = kViews;
+  btf.lights = {directionFromDegrees(0, 0), directionFromDegrees(60, 90)};
+  btf.encoding = Encoding::Gamma22;
+  btf.name = "GREY";
+  requireDone(writeBtfZip(zip, btf, [](int, std::span<float> out) -> Result<void> {
+    std::fill(out.begin(), out.end(), 0.5f);
+    return {};
+  }));
+  return zip;
+}
+
+fs::path fieldFile() {
+  const fs::path file = test::testFolder() / "grey.rf.exr";
+  const auto model = valueOf(ModelRegistry::builtin().create({}));
+  ReflectanceFieldDescription about;
+  about.views = kViews;
+  about.lights = {directionFromDegrees(0, 0)};
+  about.source = "GREY";
+  about.fitReport = R"({"epsilon":{"linear":{"luminance":{"avg":0.0301}}}})";
+  FloatImage shared(5, 7, model->sharedChannels());
+  FloatImage views(5, 7, model->viewChannels(), 3);
+  shared.roundToHalf();
+  views.roundToHalf();
+  requireDone(writeReflectanceField(valueOf(ReflectanceField::create(model, about, shared, views)), file));
+  return file;
+}
+
+void expectRefused(const ProgramRun& run, const std::string& message) {
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err,
+              AllOf(testing::StartsWith("weft-info: "), HasSubstr(message), testing::EndsWith("\n")));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(WeftInfo, DescribesAMeasurement) {
+  const fs::path zip = bakedZip();
+  const ProgramRun run = runProgram("weft-info", {zip, "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json expected = {{"kind", "btf"},
+                         {"name", "grey"},
+                         {"width", 8},
+                         {"height", 4},
+                         {"views", 3},
+                         {"lights", 2},
+                         {"encoding", "gamma2.2"},
+                         {"has_cosine", true},
+                         {"bytes", {{"file", fs::file_size(zip)}}}};
+  EXPECT_EQ(json::parse(run.out), expected);
+  EXPECT_THAT(runProgram("weft-info", {zip}).out, AllOf(HasSubstr("views                    3\n"),
+                                                        HasSubstr("encoding                 gamma2.2\n")));
+}
+
+TEST(WeftInfo, DescribesAFolder) {
+  const fs::path folder = test::testFolder() / "set";
+  fs::create_directories(folder);
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", Image(3, 2, 3)));
+  const ProgramRun run = runProgram("weft-info", {folder, "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json info = json::parse(run.out);
+  EXPECT_EQ(info.at("name"), "set");
+  EXPECT_EQ(info.at("encoding"), "srgb");
+  EXPECT_EQ(info.at("lights"), 1);
+}
+
+TEST(WeftInfo, DescribesAReflectanceField) {
+  const fs::path file = fieldFile();
+  const fs::path report = file.parent_path() / "report.json";
+  const ProgramRun run = runProgram("weft-info", {file, "--json", report});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("model.name               rfnl\n"));
+  const json info = json::parse(std::ifstream(report));
+  EXPECT_EQ(info.at("kind"), "reflectance field");
+  EXPECT_EQ(info.at("width"), 5);
+  EXPECT_EQ(info.at("height"), 7);
+  EXPECT_EQ(info.at("views"), 3);
+  EXPECT_EQ(info.at("lights"), 1);
+  EXPECT_EQ(info.at("has_cosine"), false);
+  EXPECT_EQ(info.at("precision"), "half");
+  EXPECT_EQ(info.at("model").at("lobes"), 2);
+  EXPECT_EQ(info.at("fit").at("epsilon").at("linear").at("luminance").at("avg"), 0.0301);
+  EXPECT_EQ(info.at("bytes").at("file"), fs::file_size(file));
+  EXPECT_EQ(info.at("bytes").at("gpu"), 5 * 7 * 8 * (1 + 3 * 2));
+}
+
+TEST(WeftInfo, OpenExrsOwnToolUnderstandsAReflectanceField) {
+  const ProgramRun run = runProgram("/usr/bin/exrheader", {fieldFile()});
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("name (type string): \"shared\""), HasSubstr("name (type string): \"view002\""),
+                    HasSubstr("lobe1.exponent, 16-bit floating-point"),
+                    HasSubstr("weftReflectanceField (type string)")));
+}
+
+TEST(WeftInfo, RefusesBadInput) {
+  const fs::path folder = test::testFolder() / "folder";
+  fs::create_directories(folder);
+  const std::string report = (folder.parent_path() / "out.json").string();
+  const auto infoOn = [&](const fs::path& file) { return runProgram("weft-info", {file, "--json", report}); };
+  expectRefused(infoOn(folder / "none.zip"), "none.zip: no such file or folder");
+  expectRefused(infoOn(folder), "folder: there are no images named by their angles");
+  std::ofstream(folder / "text.rf.exr") << "hello";
+  expectRefused(infoOn(folder / "text.rf.exr"), "text.rf.exr: not an OpenEXR file");
+  std::ofstream(folder / "text.zip") << "hello";
+  expectRefused(infoOn(folder / "text.zip"), "text.zip: not a complete zip");
+  std::ofstream(folder / "tl000_pl000_tv000_pv000.jpg") << "hello";
+  expectRefused(infoOn(folder), "tl000_pl000_tv000_pv000.jpg: this is neither a JPEG nor a PNG");
+  EXPECT_FALSE(fs::exists(report));
+}
+
+TEST(WeftInfo, RefusesATruncatedZip) {
+  const fs::path zip = bakedZip();
+  fs::resize_file(zip, fs::file_size(zip) / 2);
+  expectRefused(runProgram("weft-info", {zip}), "grey.zip: not a complete zip");
+}
+
+TEST(WeftInfo, RefusesATruncatedReflectanceField) {
+  const fs::path file = fieldFile();
+  fs::resize_file(file, fs::file_size(file) - 10);
+  expectRefused(runProgram("weft-info", {file}), "grey.rf.exr: ");
+}
+
+TEST(WeftInfo, RefusesBadUsage) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"a", "b"}, {"a", "--unknown"}, {"a", "--threads", "x"}}) {
+    const ProgramRun run = runProgram("weft-info", arguments);
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_THAT(run.err, testing::StartsWith("weft-info: "));
+  }
+}
+
+}  // namespace
+}  // namespace weft
