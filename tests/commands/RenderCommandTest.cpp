@@ -1,0 +1,220 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "GltfText.h"
+#include "ProgramRun.h"
+#include "TestSupport.h"
+#include "weft/core/ImageComparison.h"
+#include "weft/io/ExrFile.h"
+#include "weft/io/ImageFile.h"
+#include "weft/io/ReflectanceFieldFile.h"
+
+namespace weft {
+namespace {
+
+using test::ProgramRun;
+using testing::HasSubstr;
+
+class RenderCommand : public testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return folder / name;
+  }
+
+  /// Renders 40 x 30 pixels of a scene.
+  ProgramRun render(const std::string& scene, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{scene, "-o", output, "--size", "40x30"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::runProgram("weft-render", arguments);
+  }
+
+  void expectBadInput(const ProgramRun& run, const std::string& message) const {
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(run.err, HasSubstr(message));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    expectNoOutput();
+  }
+
+  void expectBadUsage(const ProgramRun& run, const std::string& message) const {
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_THAT(run.err, HasSubstr(message));
+    expectNoOutput();
+  }
+
+  void expectNoOutput() const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith("out"))) << entry.path();
+  }
+
+  const std::filesystem::path folder = test::testFolder();
+  const std::string output = (folder / "out.png").string();
+};
+
+/// A field that shows `color` wherever light falls head-on.
+void writeConstantField(const std::filesystem::path& path, glm::vec3 color) {
+  const auto model = test::valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
+  FloatImage shared(1, 1, model->sharedChannels());
+  for (int channel = 0; channel < 3; ++channel) shared.at(0, 0, channel) = color[channel];
+  FloatImage views(1, 1, model->viewChannels(), 1);
+  views.at(0, 0, 5) = 1.0f;
+  ReflectanceFieldDescription description;
+  description.views = description.lights = {{0, 0, 1}};
+  test::requireDone(writeReflectanceField(
+      test::valueOf(ReflectanceField::create(model, description, std::move(shared), std::move(views))),
+      path));
+}
+
+TEST_F(RenderCommand, DrawsTheBuiltInShapes) {
+  for (const char* shape : {"shape:plane", "shape:sphere", "shape:cloth"}) {
+    const ProgramRun run = render(shape);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const Image picture = test::valueOf(readImage(output));
+    ASSERT_EQ(picture.width, 40);
+    ASSERT_EQ(picture.height, 30);
+    EXPECT_GT(picture.pixel(20, 15)[0], 100) << shape << " is lit";
+    EXPECT_EQ(picture.pixel(0, 0)[0], 0x28) << "the background is dark grey";
+  }
+}
+
+TEST_F(RenderCommand, ALightShowsItsColourOnWhiteThatFacesIt) {
+  const std::string picture = (folder / "out.exr").string();
+  for (const char* size : {"9x9", "9 9"}) {
+    std::vector<std::string> arguments{
+        "shape:plane", "-o", picture, "--camera", "0,0,3:0,0,0", "--light", "0,0,5:0.5,0.25,2", "--size"};
+    if (std::string(size) == "9 9")
+      arguments.insert(arguments.end(), {"9", "9"});
+    else
+      arguments.push_back(size);
+    const ProgramRun run = test::runProgram("weft-render", arguments);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const FloatImage image = test::valueOf(readExr(picture));
+    ASSERT_EQ(image.width(), 9);
+    EXPECT_NEAR(image.at(4, 4, *image.channelIndex("R")), 0.5f, 1e-3f);
+    EXPECT_NEAR(image.at(4, 4, *image.channelIndex("G")), 0.25f, 1e-3f);
+    EXPECT_NEAR(image.at(4, 4, *image.channelIndex("B")), 2.0f, 1e-3f);
+    EXPECT_EQ(image.at(4, 4, *image.channelIndex("A")), 1.0f);
+    EXPECT_EQ(image.at(0, 0, *image.channelIndex("A")), 0.0f);
+  }
+}
+
+TEST_F(RenderCommand, DressesASceneInAReflectanceField) {
+  writeConstantField(folder / "teal.rf.exr", {0.0f, 0.5f, 0.5f});
+  const std::string scene = write("scene.gltf", test::planeGltf()).string();
+  for (const char* name : {"base", "*"}) {
+    const ProgramRun run =
+        render(scene, {"--material", std::string(name) + "=" + (folder / "teal.rf.exr").string(), "--light",
+                       "0,0,9", "--camera", "0,0,2:0,0,0", "--views", "1"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const Image picture = test::valueOf(readImage(output));
+    EXPECT_EQ(picture.pixel(20, 15)[0], 0);
+    EXPECT_NEAR(picture.pixel(20, 15)[1], 188, 1);  // 0.5 as sRGB
+    EXPECT_NEAR(picture.pixel(20, 15)[2], 188, 1);
+  }
+}
+
+TEST_F(RenderCommand, AGltfPlaneLooksLikeTheBuiltInOne) {
+  const std::string scene = write("scene.gltf", test::planeGltf()).string();
+  ASSERT_EQ(render(scene).exitCode, 0);
+  const Image file = test::valueOf(readImage(output));
+  ASSERT_EQ(render("shape:plane").exitCode, 0);
+  EXPECT_EQ(test::valueOf(readImage(output)).bytes, file.bytes);
+}
+
+TEST_F(RenderCommand, ReportsWhatItMeasured) {
+  const ProgramRun run = render("shape:plane", {"--frames", "3", "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  EXPECT_EQ(report["width"], 40);
+  EXPECT_EQ(report["frames"], 3);
+  EXPECT_GT(report["frame_ms"]["min"], 0.0);
+  EXPECT_LE(report["frame_ms"]["min"], report["frame_ms"]["median"]);
+  EXPECT_LE(report["frame_ms"]["median"], report["frame_ms"]["max"]);
+}
+
+TEST_F(RenderCommand, SaysWhatIsMissing) {
+  expectBadInput(render((folder / "none.gltf").string()), "none.gltf: there is no such file");
+  expectBadInput(render("shape:plane", {"--material", "*=" + (folder / "none.rf.exr").string()}),
+                 "none.rf.exr");
+  const std::string field =
+      write("field.gltf", test::planeGltf(R"({"name":"cloth","extensions":)"
+                                          R"({"WEFT_materials_btf":{"uri":"x.rf.exr"}}})"))
+          .string();
+  expectBadInput(render(field), "reflectance field of material \"cloth\" of field.gltf");
+  const std::string texture =
+      write("texture.gltf",
+            test::planeGltf(R"({"name":"base","pbrMetallicRoughness":{"baseColorTexture":)"
+                            R"({"index":0}}}],"textures":[{"source":0}],"images":[{"uri":"x.png"})"))
+          .string();
+  expectBadInput(render(texture), "base colour of material \"base\" of texture.gltf");
+  expectBadInput(render("shape:cube"), "shape:cube: there is no such shape");
+}
+
+TEST_F(RenderCommand, SaysWhatIsBroken) {
+  const std::string glb = test::planeGlb();
+  expectBadInput(render(write("short.glb", glb.substr(0, glb.size() / 2)).string()), "short.glb: ");
+  expectBadInput(render(write("text.gltf", "no JSON").string()), "text.gltf: this is not valid glTF");
+  write("broken.rf.exr", "no EXR");
+  expectBadInput(render("shape:plane", {"--material", "*=" + (folder / "broken.rf.exr").string()}),
+                 "broken.rf.exr");
+}
+
+TEST_F(RenderCommand, SaysWhichNamesThereAre) {
+  writeConstantField(folder / "grey.rf.exr", glm::vec3(0.5f));
+  const std::string scene = write("scene.gltf", test::planeGltf()).string();
+  expectBadInput(render(scene, {"--material", "bass=" + (folder / "grey.rf.exr").string()}),
+                 "there is no material \"bass\" (its materials are [\"base\"])");
+  expectBadInput(render(scene, {"--camera", "front"}), "there is no camera \"front\"");
+}
+
+TEST_F(RenderCommand, RefusesBadUsage) {
+  expectBadUsage(test::runProgram("weft-render", {"-o", output}), "SCENE");
+  expectBadUsage(test::runProgram("weft-render", {"shape:plane"}), "--output");
+  expectBadUsage(test::runProgram("weft-render", {"shape:plane", "-o", (folder / "out.jpg").string()}),
+                 ".png or .exr");
+  expectBadUsage(render("shape:plane", {"--views", "2"}), "--views");
+  expectBadUsage(render("shape:plane", {"--uv-scale", "0"}), "--uv-scale");
+  expectBadUsage(render("shape:plane", {"--light", "1,2"}), "--light");
+  expectBadUsage(render("shape:plane", {"--light", "1,2,3:1,-1,1"}), "--light");
+  expectBadUsage(render("shape:plane", {"--camera", "1,2,3:4,5"}), "--camera");
+  expectBadUsage(render("shape:plane", {"--material", "wool.rf.exr"}), "--material");
+  for (const char* size : {"40", "0x30", "40x", "40xx30", "9000x30", "axb"})
+    expectBadUsage(test::runProgram("weft-render", {"shape:plane", "-o", output, "--size", size}), "--size");
+}
+
+TEST_F(RenderCommand, ReadsTheSceneBehindTheSize) {
+  for (const std::vector<std::string>& size : {std::vector<std::string>{"20x10"}, {"20", "10"}}) {
+    std::vector<std::string> arguments{"-o", output, "--size"};
+    arguments.insert(arguments.end(), size.begin(), size.end());
+    arguments.push_back("shape:plane");
+    const ProgramRun run = test::runProgram("weft-render", arguments);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(test::valueOf(readImage(output)).width, 20);
+  }
+}
+
+TEST_F(RenderCommand, LeavesNoOutputInAFolderThatIsNotThere) {
+  const ProgramRun run =
+      test::runProgram("weft-render", {"shape:plane", "-o", (folder / "none" / "out.png").string()});
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_F(RenderCommand, RendersMeasuredModels) {
+  WEFT_DATA_FILE(suzi, "gltf/suzi.glb");
+  EXPECT_EQ(render(suzi.string()).exitCode, 0);
+  std::filesystem::remove(output);
+  const std::filesystem::path helmet = test::dataFile("gltf/FlightHelmet/glTF/FlightHelmet.gltf");
+  expectBadInput(render(helmet.string()), "LeatherPartsMat_BaseColor.png");
+  writeConstantField(folder / "brown.rf.exr", {0.4f, 0.2f, 0.1f});
+  const ProgramRun run =
+      render(helmet.string(), {"--material", "LeatherPartsMat=" + (folder / "brown.rf.exr").string()});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include "GlTest.h"
+#include "GltfText.h"
+#include "TestField.h"
+#include "TestSupport.h"
+#include "weft/core/ImageComparison.h"
+#include "weft/io/ReflectanceFieldFile.h"
+#include "weft/scene_io/GltfLoader.h"
+#include "weft/scenegraph/Light.h"
+#include "weft/scenegraph/Shapes.h"
+#include "weft/scenegraph/Transform.h"
+
+namespace weft {
+namespace {
+
+constexpr int kSize = 32;
+
+class GltfRender : public test::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    folder = test::testFolder();
+    test::requireDone(writeReflectanceField(test::testField(), folder / "test.rf.exr"));
+  }
+
+  /// As shown by a camera that looks at it from the side, under a lamp from the upper right.
+  FloatImage picture(const std::shared_ptr<Node>& scene) {
+    Node root;
+    root.addChild(scene);
+    root.addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1), glm::vec3(1, 2, 2))))
+        ->addChild(std::make_shared<PointLight>(glm::vec3(20)));
+    const RenderTarget target(kSize, kSize, Precision::Float);
+    test::requireDone(
+        renderer.render(context(), root, Camera::lookAt({0.4f, -0.8f, 1.4f}, {0, 0, 0}), target));
+    return target.read(context());
+  }
+
+  FloatImage pictureOfFile(const std::string& gltf) {
+    test::writeText(folder / "scene.gltf", gltf);
+    return picture(test::valueOf(loadGltf(folder / "scene.gltf")).root);
+  }
+
+  FloatImage pictureOfPlane(glm::vec2 textureScale) {
+    BTFMaterialOptions options;
+    options.textureScale = textureScale;
+    return picture(test::dressed(
+        test::valueOf(BTFMaterial::create(std::make_shared<ReflectanceField>(test::testField()), options)),
+        std::make_shared<Mesh>(makePlane())));
+  }
+
+  std::filesystem::path folder;
+};
+
+std::string btfMaterial(const std::string& more = "") {
+  return R"({"name":"cloth","extensions":{"WEFT_materials_btf":{"uri":"test.rf.exr")" + more + "}}}";
+}
+
+TEST_F(GltfRender, ShowsAPlaneLikeTheBuiltInOne) {
+  const FloatImage expected = pictureOfPlane({1, 1});
+  ASSERT_GT(expected.at(kSize / 2, kSize / 2, 0), 0.05f) << "the plane is in the picture";
+  EXPECT_EQ(compareImages(pictureOfFile(test::planeGltf(btfMaterial())), expected).maximum, 0.0f);
+}
+
+TEST_F(GltfRender, RepeatsTheMaterialAsTheExtensionSays) {
+  const FloatImage picture = pictureOfFile(test::planeGltf(btfMaterial(R"(,"scale":[3,2])")));
+  EXPECT_EQ(compareImages(picture, pictureOfPlane({3, 2})).maximum, 0.0f);
+  EXPECT_GT(compareImages(picture, pictureOfPlane({1, 1})).maximum, 0.1f);
+}
+
+TEST_F(GltfRender, ShowsTheSameThroughANodeThatMirrorsAMirroredMesh) {
+  // x mirrored in the positions, and back again by the node: the winding turns twice, the image stays.
+  std::vector<std::uint8_t> bytes = test::planeBuffer().bytes();
+  for (std::size_t vertex = 0; vertex < 4; ++vertex) bytes[vertex * 12 + 3] ^= 0x80;  // the sign of x
+  const std::vector<std::uint16_t> indices{0, 3, 2, 0, 1, 3};
+  std::memcpy(bytes.data() + 128, indices.data(), 12);
+  test::BufferBytes buffer;
+  buffer.add(bytes);
+  const std::string gltf = test::replaced(test::planeGltf(btfMaterial(), buffer.dataUri()),
+                                          R"({"mesh":0,"name":"plane"})", R"({"mesh":0,"scale":[-1,1,1]})");
+  EXPECT_LT(compareImages(pictureOfFile(gltf), pictureOfPlane({1, 1})).maximum, 1e-5f);
+}
+
+TEST_F(GltfRender, LightsAndPlacesAsTheFileSays) {
+  // The same plane, 2 units to the right, with the file's own lamp and camera there.
+  const std::string gltf = test::replaced(
+      test::replaced(
+          test::planeGltf(btfMaterial()), R"({"asset")",
+          R"({"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},)"
+          R"("cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.01,"zfar":100}}],)"
+          R"("asset")"),
+      R"("nodes":[{"mesh":0,"name":"plane"}])",
+      R"("nodes":[{"translation":[2,0,0],"children":[1,2,3]},{"mesh":0},)"
+      R"({"translation":[1,2,2],"extensions":{"KHR_lights_punctual":{"light":0}}},)"
+      R"({"translation":[0,0,2],"camera":0}])");
+  test::writeText(folder / "scene.gltf", gltf);
+  const GltfScene scene = test::valueOf(loadGltf(folder / "scene.gltf"));
+  const RenderTarget target(kSize, kSize, Precision::Float);
+  test::requireDone(renderer.render(context(), *scene.root, scene.cameras.at(0).camera, target));
+  const FloatImage actual = target.read(context());
+
+  Node root;
+  root.addChild(
+      test::dressed(test::valueOf(BTFMaterial::create(std::make_shared<ReflectanceField>(test::testField()))),
+                    std::make_shared<Mesh>(makePlane())));
+  root.addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1), glm::vec3(1, 2, 2))))
+      ->addChild(std::make_shared<PointLight>(glm::vec3(20)));
+  test::requireDone(renderer.render(context(), root, Camera::lookAt({0, 0, 2}, {0, 0, 0}), target));
+  EXPECT_LT(compareImages(actual, target.read(context())).maximum, 1e-5f);
+}
+
+}  // namespace
+}  // namespace weft
