@@ -65,14 +65,14 @@ HeightField::Sample corduroy(glm::vec2 p) {
   const float across = 3.0f * (p.x + wobble);
   const float fromMiddle = std::abs(2.0f * (across - std::floor(across)) - 1.0f);
   const float rib = std::sqrt(std::max(0.0f, 1.0f - std::pow(fromMiddle, 2.5f)));
-  const float tufts = fractalNoise(p, {26, 34}, 2, 3);
+  const float tufts = fractalNoise(p, {18, 26}, 2, 3);
   const float fibres = fractalNoise(p, {72, 72}, 3, 5);
 
   HeightField::Sample sample;
-  sample.height = 0.088f * rib + glm::mix(0.3f, 1.0f, rib) * (0.017f * tufts + 0.0045f * fibres);
+  sample.height = 0.088f * rib + glm::mix(0.3f, 1.0f, rib) * (0.015f * tufts + 0.003f * fibres);
   const float shade = 1.0f + 0.45f * tufts + 0.6f * fibres + 0.15f * noise(p, {5, 7}, 9);
-  sample.albedo = shade * glm::mix(glm::vec3(0.10f, 0.045f, 0.016f), glm::vec3(0.34f, 0.18f, 0.065f), rib);
-  sample.specular = 0.03f;
+  sample.albedo = shade * glm::mix(glm::vec3(0.10f, 0.045f, 0.016f), glm::vec3(0.36f, 0.175f, 0.05f), rib);
+  sample.specular = 0.02f;
   return sample;
 }
 
