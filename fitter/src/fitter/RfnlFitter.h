@@ -4,6 +4,17 @@
 
 namespace weft {
 
+/// What is the same for all texels of an `rfnl` fit.
+struct RfnlProblem {
+  std::vector<glm::dvec3> lights;
+  std::vector<double>
+      cosines;  ///< what the model is multiplied by for each light: n.l, or 1 if it contains it
+  std::vector<std::vector<int>> neighbors;  ///< of each light, the six nearest others
+  std::size_t views = 0;
+  bool modelHasCosine = false;
+  double largestExponent = 80.0;  ///< a sharper lobe could hide between two lights
+};
+
 /// Fits `rfnl`: the lobes of each view by Levenberg-Marquardt (Ceres' TinySolver) from several starts,
 /// alternating with a closed-form diffuse albedo where the views share one.
 class RfnlFitter : public TexelFitter {
@@ -16,14 +27,9 @@ class RfnlFitter : public TexelFitter {
  private:
   explicit RfnlFitter(const FitProblem& problem);
 
-  std::vector<glm::dvec3> lights_;
-  std::vector<double>
-      cosines_;  ///< what the model is multiplied by for each light: n.l, or 1 if it contains it
-  std::vector<std::vector<int>> neighbors_;  ///< of each light, the six nearest others
-  std::size_t views_ = 0;
-  std::size_t lobes_ = 0;
+  RfnlProblem problem_;
+  int lobes_ = 0;
   bool ownDiffuseAlbedo_ = false;
-  double largestExponent_ = 80.0;
 };
 
 }  // namespace weft

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "weft/fitter/Fitter.h"
+#include "weft/io/BtfSource.h"
+#include "weft/io/ReflectanceFieldFile.h"
+#include "weft/tool/Tool.h"
+
+namespace {
+
+using namespace weft;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::string precision = "half";
+  std::string cosine = "out";
+  std::string diffuse = "shared";
+  std::vector<int> crop;
+  double memoryGibibytes = 4.0;
+  double maximumError = 0.0;  // 0: no bound
+  FitOptions fit;
+};
+
+void addOptions(CLI::App& app, Arguments& a) {
+  app.add_option("INPUT", a.input, "a folder or zip of angle-named images")->required();
+  app.add_option("-o", a.output, "the .rf.exr to write")->required();
+  app.add_option("--model", a.fit.model.name,
+                 "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
+      ->check(CLI::IsMember(ModelRegistry::builtin().names()))
+      ->capture_default_str();
+  app.add_option("--lobes", a.fit.model.lobes, "lobes a view, of rfnl: 1 to 4")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  app.add_option(
+         "--rho-d", a.diffuse,
+         "the diffuse albedo of rfnl: one for all views, or each its own (smaller errors, larger file)")
+      ->check(CLI::IsMember({"shared", "per-view"}))
+      ->capture_default_str();
+  app.add_option("--cosine", a.cosine,
+                 "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do")
+      ->check(CLI::IsMember({"out", "in"}))
+      ->capture_default_str();
+  app.add_option("--float", a.precision, "precision of the parameters in the file")
+      ->check(CLI::IsMember({"half", "float"}))
+      ->capture_default_str();
+  app.add_option("--crop", a.crop, "fit these texels alone: X Y W H, from the top left")->expected(4);
+  app.add_option("--memory", a.memoryGibibytes, "GiB for the samples of the rows that are fitted at once")
+      ->check(CLI::Range(0.0625, 1024.0))
+      ->capture_default_str();
+  app.add_option("--max-error", a.maximumError,
+                 "end with exit code 3 if the average eps of stored luminance is above this")
+      ->check(CLI::PositiveNumber);
+}
+
+FitOptions fitOptions(const Arguments& a) {
+  FitOptions options = a.fit;
+  options.model.diffuseAlbedo = a.diffuse == "shared" ? DiffuseAlbedo::Shared : DiffuseAlbedo::PerView;
+  options.cosineInModel = a.cosine == "in";
+  options.precision = a.precision == "half" ? Precision::Half : Precision::Float;
+  options.memory = static_cast<std::size_t>(a.memoryGibibytes * 1024.0 * 1024.0 * 1024.0);
+  if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
+  return options;
+}
+
+void printErrors(const FitErrors& errors) {
+  fmt::print("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "eps (Meseth eq. 2)", "avg", "min", "max", "95 %",
+             "rmse");
+  for (const auto& [label, space, measure] :
+       {std::tuple("stored luminance", ErrorSpace::Stored, ErrorMeasure::Luminance),
+        std::tuple("stored RGB", ErrorSpace::Stored, ErrorMeasure::Rgb),
+        std::tuple("linear luminance", ErrorSpace::Linear, ErrorMeasure::Luminance),
+        std::tuple("linear RGB", ErrorSpace::Linear, ErrorMeasure::Rgb)}) {
+    const ErrorStatistics& s = errors.of(space, measure);
+    fmt::print("{:<18} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", label, s.average, s.minimum,
+               s.maximum, s.percentile95, s.rootMeanSquare);
+  }
+}
+
+Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
+  if (!arguments.output.string().ends_with(".rf.exr"))
+    return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
+  const FitOptions options = fitOptions(arguments);
+  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
+  const BtfDescription& measured = source->description();
+  const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
+                                                static_cast<std::size_t>(options.crop->height)
+                                          : measured.texels();
+  WEFT_TRY(
+      const FitResult result,
+      fitReflectanceField(*source, options, tool.progress("fitting", static_cast<double>(texels), "texels")));
+  const auto startOfWriting = std::chrono::steady_clock::now();
+  WEFT_TRY_VOID(writeReflectanceField(result.field, arguments.output));
+  const double secondsWriting =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - startOfWriting).count();
+
+  Json report = Json::parse(toJson(result.errors));
+  report["model"] = result.field.model().description().name;
+  report["lobes"] = result.field.model().description().lobes;
+  report["rho_d"] = arguments.diffuse;
+  report["cosine"] = arguments.cosine;
+  report["views"] = measured.views.size();
+  report["lights"] = measured.lights.size();
+  report["held_out"] = nullptr;
+  report["bytes"] = {{"file", std::filesystem::file_size(arguments.output)}, {"gpu", gpuBytes(result.field)}};
+  report["seconds"] = {
+      {"read", result.secondsReading}, {"fit", result.secondsFitting}, {"write", secondsWriting}};
+  report["peak_memory_bytes"] = peakMemoryBytes();
+  report["threads"] = tool.threads();
+  WEFT_TRY_VOID(tool.writeJson(report));
+
+  if (!tool.quiet() && !tool.jsonOnStdout()) {
+    fmt::print("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(), result.field.width(),
+               result.field.height(), measured.views.size(), measured.lights.size());
+    printErrors(result.errors);
+  }
+  const double error = result.errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance).average;
+  return arguments.maximumError > 0.0 && error > arguments.maximumError ? ExitCode::BoundMissed
+                                                                        : ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"weft-fit", "Fits a reflectance model to every texel of a measured BTF.",
+             "weft-fit UBO_WOOL64.zip -o wool.rf.exr --model rfnl --lobes 2", WEFT_VERSION});
+  Arguments arguments;
+  addOptions(tool.options(), arguments);
+  return tool.run(argc, argv, [&] { return fit(tool, arguments); });
+}
