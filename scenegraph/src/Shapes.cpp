@@ -55,9 +55,9 @@ Mesh makeSphere(int rings) {
   mesh.texcoords = gridTexcoords(2 * rings, rings, {2, 1});
   mesh.indices = gridIndices(2 * rings, rings);
   for (const glm::vec2 uv : mesh.texcoords) {
-    const float longitude = glm::pi<float>() * uv.x;
+    // The sine of a rounded pi is not 0, but the sphere is closed and its poles are points.
+    const float longitude = uv.x == 2.0f ? 0.0f : glm::pi<float>() * uv.x;
     const float polar = glm::pi<float>() * uv.y;
-    // The sine of a rounded pi is not 0, and the poles are points.
     const float ring = uv.y == 0.0f || uv.y == 1.0f ? 0.0f : std::sin(polar);
     mesh.positions.emplace_back(-ring * std::sin(longitude), std::cos(polar), -ring * std::cos(longitude));
     mesh.tangents.emplace_back(-std::cos(longitude), 0.0f, std::sin(longitude), 1.0f);

@@ -100,7 +100,7 @@ TEST(Normals, SmoothOnesOfASphereAreItsPositions) {
   Mesh mesh = makeSphere(48);
   generateNormals(mesh, NormalKind::Smooth);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    ASSERT_LT(glm::distance(mesh.normals[i], mesh.positions[i]), 5e-3f) << i;  // a cell, pi / 48, squared
+    ASSERT_LT(glm::distance(mesh.normals[i], mesh.positions[i]), 1e-3f) << i;
 }
 
 TEST(Normals, FlatOnesAreThoseOfTheTriangles) {
