@@ -1,0 +1,77 @@
+#include "weft/reflectance/ReflectanceModel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "TestSupport.h"
+#include "weft/core/Direction.h"
+
+namespace weft {
+namespace {
+
+using test::valueOf;
+
+TEST(ReflectanceModel, RfpIsThePaperPolynomialTimesTheBaseColor) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
+  const std::array shared{0.5f, 1.0f, 2.0f};
+  const std::array a{0.1f, -0.2f, 0.3f, 0.4f, -0.5f, 0.9f};
+  const glm::vec3 l = directionFromDegrees(40, 70);
+  const float expected =
+      0.1f * l.x * l.x - 0.2f * l.y * l.y + 0.3f * l.x * l.y + 0.4f * l.x - 0.5f * l.y + 0.9f;
+  const glm::vec3 value = model->evaluate(shared, a, l);
+  EXPECT_NEAR(value.x, 0.5f * expected, 1e-6);
+  EXPECT_NEAR(value.y, expected, 1e-6);
+  EXPECT_NEAR(value.z, 2.0f * expected, 1e-6);
+}
+
+TEST(ReflectanceModel, NegativeValuesBecomeBlack) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
+  const std::array shared{1.0f, 1.0f, 1.0f};
+  const std::array a{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, -1.0f};
+  EXPECT_EQ(model->evaluate(shared, a, {0, 0, 1}), glm::vec3(0.0f));
+}
+
+TEST(ReflectanceModel, RfnlLobesAreCosinePowersAroundTheirDirections) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfnl", .lobes = 2}));
+  const glm::vec3 first = directionFromDegrees(30, 20);
+  const glm::vec3 second = directionFromDegrees(60, 200);
+  const glm::vec2 p = parabolicFromDirection(first);
+  const glm::vec2 q = parabolicFromDirection(second);
+  const std::array shared{1.0f, 0.5f, 0.25f, 0.125f};
+  const std::array view{0.7f, p.x, p.y, 12.0f, 0.4f, q.x, q.y, 3.0f};
+  for (double phi = 0.0; phi < 360.0; phi += 30.0) {
+    const glm::vec3 l = directionFromDegrees(50, phi);
+    const float expected = 0.125f + 0.7f * std::pow(std::max(glm::dot(first, l), 0.0f), 12.0f) +
+                           0.4f * std::pow(std::max(glm::dot(second, l), 0.0f), 3.0f);
+    const glm::vec3 value = model->evaluate(shared, view, l);
+    EXPECT_NEAR(value.x, expected, 1e-5);
+    EXPECT_NEAR(value.y, 0.5f * expected, 1e-5);
+    EXPECT_NEAR(value.z, 0.25f * expected, 1e-5);
+  }
+}
+
+TEST(ReflectanceModel, RfnlMayHaveADiffuseAlbedoOfEachViewsOwn) {
+  const auto model = valueOf(
+      ModelRegistry::builtin().create({.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}));
+  EXPECT_EQ(model->sharedChannels().size(), 3u);
+  ASSERT_EQ(model->viewChannels().back(), "rho_d");
+  const std::array shared{1.0f, 1.0f, 1.0f};
+  const std::array view{0.0f, 0.0f, 0.0f, 1.0f, 0.3f};
+  EXPECT_NEAR(model->evaluate(shared, view, {0, 0, 1}).x, 0.3f, 1e-6);
+}
+
+TEST(ReflectanceModel, UnknownModelsAndImpossibleLobesAreRefused) {
+  const ModelRegistry registry = ModelRegistry::builtin();
+  const auto unknown = registry.create({.name = "magic"});
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message().find("magic"), std::string::npos);
+  EXPECT_NE(unknown.error().hint.find("rfnl"), std::string::npos);
+  EXPECT_FALSE(registry.create({.name = "rfnl", .lobes = 0}));
+  EXPECT_FALSE(registry.create({.name = "rfnl", .lobes = 5}));
+}
+
+}  // namespace
+}  // namespace weft
