@@ -1,0 +1,266 @@
+#include "weft/materials/BTFMaterial.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <random>
+
+#include "GlTest.h"
+#include "MemoryBtf.h"
+#include "TestSupport.h"
+#include "weft/core/ImageComparison.h"
+#include "weft/fitter/Fitter.h"
+#include "weft/io/ExrFile.h"
+#include "weft/materials/LambertMaterial.h"
+#include "weft/reflectance/ViewLookup.h"
+#include "weft/scenegraph/Light.h"
+#include "weft/scenegraph/Transform.h"
+
+namespace weft::test {
+namespace {
+
+constexpr int kSize = 128;
+
+// Turns a node's -Z, along which a directional light shines, against `towardsLight`.
+glm::mat4 shiningFrom(glm::vec3 towardsLight) {
+  const glm::vec3 z = glm::normalize(towardsLight);
+  const glm::vec3 x =
+      glm::normalize(glm::cross(std::abs(z.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), z));
+  return {glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), glm::vec4(0, 0, 0, 1)};
+}
+
+// A light under which a white surface that faces it shows 1.
+std::shared_ptr<Node> unitLight(glm::vec3 towardsLight) {
+  auto node = std::make_shared<Node>(std::make_shared<Transform>(shiningFrom(towardsLight)));
+  node->addChild(std::make_shared<DirectionalLight>(glm::vec3(glm::pi<float>())));
+  return node;
+}
+
+std::shared_ptr<Node> scene(std::shared_ptr<const Material> material, std::shared_ptr<const Mesh> mesh,
+                            glm::vec3 towardsLight) {
+  auto root = std::make_shared<Node>();
+  root->addChild(dressed(std::move(material), std::move(mesh)));
+  root->addChild(unitLight(towardsLight));
+  return root;
+}
+
+// A tangent frame in the world: columns are T, B, N.
+struct Frame {
+  glm::mat3 axes;
+  glm::vec3 toFrame(glm::vec3 world) const { return glm::transpose(axes) * world; }
+};
+
+// The frame in which the square, seen from +Z, is seen from `view`.
+Frame frameSeenFrom(glm::vec3 view) {
+  const glm::vec3 other =
+      glm::normalize(glm::cross(view, std::abs(view.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
+  const glm::mat3 local(other, glm::cross(view, other), view);  // tangent space: to X, Y, Z of the world
+  return {glm::transpose(local)};
+}
+
+// The square that fills the picture, shaded as if its surface were turned: every view at every pixel without
+// perspective.
+std::shared_ptr<Mesh> squareWithFrame(const Frame& frame) {
+  auto mesh = square();
+  mesh->normals.assign(4, frame.axes[2]);
+  mesh->tangents.assign(4, glm::vec4(frame.axes[0], 1.0f));
+  return mesh;
+}
+
+glm::vec3 pixelPosition(int x, int y) {
+  return {-1.0f + 2.0f * (static_cast<float>(x) + 0.5f) / kSize,
+          1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, 0.0f};
+}
+
+// What the CPU says of the same picture. `weights` finds the views of a direction.
+template <class Weights>
+FloatImage referencePicture(const ReflectanceField& field, const Frame& frame, glm::vec3 towardsLight,
+                            const Weights& weights) {
+  FloatImage picture(kSize, kSize, {"R", "G", "B", "A"});
+  const glm::vec3 light = frame.toFrame(towardsLight);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
+      const glm::vec3 value =
+          field.evaluate(x * field.width() / kSize, y * field.height() / kSize, weights(view), light);
+      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = value[c];
+      picture.at(x, y, 3) = 1.0f;
+    }
+  return picture;
+}
+
+glm::vec3 randomDirection(std::mt19937& random, float lowest) {
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  const float z = lowest + (1.0f - lowest) * unit(random);
+  const float phi = 2.0f * glm::pi<float>() * unit(random);
+  return {std::sqrt(1 - z * z) * std::cos(phi), std::sqrt(1 - z * z) * std::sin(phi), z};
+}
+
+class BTFMaterialTest : public GlTest {
+ protected:
+  void expectEqualPictures(const FloatImage& actual, const FloatImage& expected, float tolerance,
+                           double failingShare = 0.0) {
+    const ImageComparison comparison = compareImages(actual, expected, tolerance);
+    EXPECT_LE(comparison.failingShare, failingShare) << "largest difference " << comparison.maximum;
+    if (comparison.failingShare <= failingShare) return;
+    const auto folder = testFolder();
+    (void)writeExr(folder / "actual.exr", actual);
+    (void)writeExr(folder / "expected.exr", expected);
+    (void)writeExr(folder / "difference.exr", differenceImage(actual, expected));
+    ADD_FAILURE() << "pictures are kept in " << folder;
+  }
+
+  FloatImage render(const BTFMaterialOptions& options, std::shared_ptr<const ReflectanceField> field,
+                    const Frame& frame, glm::vec3 towardsLight) {
+    auto material = valueOf(BTFMaterial::create(std::move(field), options));
+    return picture(*scene(material, squareWithFrame(frame), towardsLight), kSize, kSize);
+  }
+};
+
+// Over 20 random pairs of light and view, some of them below the measured rings.
+class GpuAgainstCpu : public BTFMaterialTest, public testing::WithParamInterface<ModelDescription> {};
+
+TEST_P(GpuAgainstCpu, AgreeOnTheFittedWool) {
+  WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
+  FitOptions options;
+  options.model = GetParam();
+  options.crop = Crop{20, 20, 8, 8};
+  auto fit = valueOf(fitReflectanceField(*valueOf(openBtf(file)), options));
+  const auto field = std::make_shared<const ReflectanceField>(std::move(fit.field));
+  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+
+  std::mt19937 random(2004);
+  for (int pair = 0; pair < 20; ++pair) {
+    const Frame frame = frameSeenFrom(randomDirection(random, 0.02f));
+    const glm::vec3 towardsLight = frame.axes * randomDirection(random, 0.0f);
+    const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
+      return lookup.locate(field->triangulation(), view);
+    });
+    expectEqualPictures(render({}, field, frame, towardsLight), expected, 5e-4f);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, GpuAgainstCpu,
+    testing::Values(ModelDescription{.name = "rfp"}, ModelDescription{.name = "rfnl", .lobes = 2},
+                    ModelDescription{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}),
+    [](const auto& test) {
+      return test.param.name + std::to_string(test.param.lobes) +
+             (test.param.diffuseAlbedo == DiffuseAlbedo::Shared ? "" : "OwnDiffuse");
+    });
+
+// A field whose every number is different, so that a mix-up of texels, views or channels shows.
+std::shared_ptr<const ReflectanceField> unevenField(bool cosineInModel = false) {
+  const MemoryBtf source(8, 8, [](int x, int y, glm::vec3 v, glm::vec3 l) {
+    const float relief = 1.0f + 0.4f * std::sin(0.8f * static_cast<float>(x) + 2.0f * l.x) *
+                                    std::cos(0.5f * static_cast<float>(y) + l.y);
+    const float glossy =
+        std::pow(std::max(glm::dot(glm::normalize(glm::vec3(-v.x, -v.y, v.z + 0.3f)), l), 0.0f), 15.0f);
+    return l.z * (glm::vec3(0.5f, 0.3f, 0.2f) * relief + glm::vec3(0.4f * glossy));
+  });
+  FitOptions options;
+  options.model.name = "rfp";
+  options.cosineInModel = cosineInModel;
+  return std::make_shared<const ReflectanceField>(valueOf(fitReflectanceField(source, options)).field);
+}
+
+TEST_F(BTFMaterialTest, NearestViewIsTheOneOfTheLargestWeight) {
+  const auto field = unevenField();
+  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.3f, 0.4f, 0.7f)));
+  const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(-0.5f, 0.2f, 0.6f));
+  const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
+    const int nearest = lookup.locate(field->triangulation(), view).nearest();
+    return DirectionWeights{{nearest, nearest, nearest}, {1.0f, 0.0f, 0.0f}};
+  });
+  // Pixels on the border between two views may fall to either.
+  expectEqualPictures(render({.interpolatedViews = 1}, field, frame, towardsLight), expected, 5e-4f, 0.002);
+}
+
+TEST_F(BTFMaterialTest, AFieldThatContainsTheCosineFadesBelowTheMeasuredLights) {
+  const auto field = unevenField(true);
+  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(-0.2f, 0.1f, 0.9f)));
+  for (double theta : {70.0, 80.0, 88.0, 95.0}) {
+    const glm::vec3 towardsLight = frame.axes * directionFromDegrees(theta, 200);
+    const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
+      return lookup.locate(field->triangulation(), view);
+    });
+    expectEqualPictures(render({}, field, frame, towardsLight), expected, 5e-4f);
+  }
+}
+
+TEST_F(BTFMaterialTest, TexturesRepeat) {
+  const auto field = unevenField();
+  const Frame upright{glm::mat3(1.0f)};
+  const glm::vec3 towardsLight(0.3f, 0.2f, 0.9f);
+  // A view so far away that it is the same for all pixels.
+  const auto far = [&](glm::vec2 scale) {
+    auto material = valueOf(BTFMaterial::create(field, {.textureScale = scale}));
+    const RenderTarget target(kSize, kSize, Precision::Float);
+    Camera camera = Camera::lookAt({0, 0, 1000}, {0, 0, 0});
+    camera.verticalFieldOfView = 2.0f * std::atan(0.001f);
+    camera.nearPlane = 900.0f;
+    camera.farPlane = 1100.0f;
+    EXPECT_TRUE(
+        renderer.render(context(), *scene(material, squareWithFrame(upright), towardsLight), camera, target));
+    return target.read(context());
+  };
+  const FloatImage once = far({1.0f, 1.0f});
+  const FloatImage twice = far({2.0f, 1.0f});
+  for (int y = 0; y < kSize; y += 5)
+    for (int x = 0; x < kSize; x += 3) {
+      EXPECT_NEAR(twice.at(x, y, 0), twice.at((x + kSize / 2) % kSize, y, 0), 1e-3f);
+      EXPECT_NEAR(twice.at(x, y, 0), once.at(2 * x % kSize, y, 0), 1e-3f);
+    }
+}
+
+std::shared_ptr<const ReflectanceField> whiteField(const char* model, bool cosineInData) {
+  const MemoryBtf source(
+      2, 2, [&](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(cosineInData ? l.z : 1.0f); },
+      cosineInData);
+  FitOptions options;
+  options.model.name = model;
+  return std::make_shared<const ReflectanceField>(valueOf(fitReflectanceField(source, options)).field);
+}
+
+TEST_F(BTFMaterialTest, WhiteIsTheCosineAtEveryAngleWithAndWithoutItInTheData) {
+  for (const char* model : {"rfp", "rfnl"})
+    for (bool cosineInData : {true, false}) {
+      auto material = valueOf(BTFMaterial::create(whiteField(model, cosineInData)));
+      for (int theta = 0; theta <= 95; theta += 5) {
+        const glm::vec3 light = directionFromDegrees(theta, 33);
+        const FloatImage image = picture(*scene(material, square(), light));
+        for (int y = 0; y < image.height(); ++y)
+          for (int x = 0; x < image.width(); ++x)
+            EXPECT_NEAR(image.at(x, y, 1), std::max(light.z, 0.0f), 1e-3f) << model << " " << theta;
+      }
+    }
+}
+
+// Units (models.md): value 1 is a white Lambertian surface, whatever the light.
+TEST_F(BTFMaterialTest, WhiteLooksLikeAWhiteLambertianSurface) {
+  auto btf = valueOf(BTFMaterial::create(whiteField("rfnl", true)));
+  const auto lambert = std::make_shared<LambertMaterial>();
+  const auto under = [&](std::shared_ptr<const Material> material, std::shared_ptr<const NodeCore> light,
+                         const glm::mat4& place) {
+    auto root = std::make_shared<Node>();
+    root->addChild(dressed(std::move(material)));
+    root->addChild(std::make_shared<Transform>(place))->addChild(std::move(light));
+    return picture(*root, 32, 32);
+  };
+  const auto point = std::make_shared<PointLight>(glm::vec3(3.0f, 2.0f, 1.0f));
+  glm::mat4 place(1.0f);
+  place[3] = glm::vec4(0.5f, -0.7f, 0.8f, 1.0f);
+  expectEqualPictures(under(btf, point, place), under(lambert, point, place), 1e-3f);
+  const auto directional = std::make_shared<DirectionalLight>(glm::vec3(1.0f, 2.0f, 3.0f));
+  const glm::mat4 turned = shiningFrom({0.4f, 0.2f, 0.5f});
+  expectEqualPictures(under(btf, directional, turned), under(lambert, directional, turned), 1e-3f);
+}
+
+TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {
+  EXPECT_FALSE(BTFMaterial::create(unevenField(), {.interpolatedViews = 2}));
+}
+
+}  // namespace
+}  // namespace weft::test
