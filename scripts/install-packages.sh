@@ -1,0 +1,29 @@
+#!/bin/bash
+# Installs the Debian 12 packages that building and testing Weft needs. Does nothing where all are there.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build pkg-config clang-format
+  libexpected-dev libfmt-dev libglm-dev libcli11-dev nlohmann-json3-dev
+  libepoxy-dev libegl-dev libopengl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri # Mesa's EGL and software renderer
+  libopenexr-dev libimath-dev libturbojpeg0-dev libpng-dev libzip-dev
+  libtinygltf-dev libstb-dev
+  libeigen3-dev libceres-dev libtbb-dev libembree-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  openexr # exrheader, which must understand our files
+  python3 # scripts/measure.sh
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then exit 0; fi
+if ((EUID != 0)); then
+  echo "These packages are missing; install them as root: ${missing[*]}" >&2
+  exit 1
+fi
+echo "Installing ${#missing[@]} packages and what they need"
+export DEBIAN_FRONTEND=noninteractive
+apt-get -qq update
+apt-get -qq -o Dpkg::Use-Pty=0 install --no-install-recommends "${missing[@]}" >/dev/null
