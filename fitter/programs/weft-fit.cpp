@@ -86,6 +86,10 @@ void printErrors(const FitErrors& errors) {
 Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
   if (!arguments.output.string().ends_with(".rf.exr"))
     return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
+  const std::filesystem::path folder =
+      arguments.output.has_parent_path() ? arguments.output.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))  // said before hours of fitting, not after
+    return fail("no such folder", folder.string(), "create it first");
   const FitOptions options = fitOptions(arguments);
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
   const BtfDescription& measured = source->description();
