@@ -5,9 +5,10 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build pkg-config clang-format
   libexpected-dev libfmt-dev libglm-dev libcli11-dev nlohmann-json3-dev
-  libepoxy-dev libegl-dev libopengl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri # Mesa's EGL and software renderer
-  libopenexr-dev libimath-dev libturbojpeg0-dev libpng-dev libzip-dev
-  libtinygltf-dev libstb-dev
+  libepoxy-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri # Mesa's EGL and software renderer
+  libopenexr-dev libimath-dev libpng-dev libzip-dev
+  libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
+  libtinygltf-dev
   libeigen3-dev libceres-dev libtbb-dev libembree-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   openexr # exrheader, which must understand our files
