@@ -1,0 +1,11 @@
+#!/bin/bash
+# Installs what Weft needs (as root, where anything is missing), then configures and builds it.
+# scripts/build.sh [PRESET [TARGET...]]: release (default) or sanitize; all targets by default
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+preset=${1:-release}
+targets=("${@:2}")
+scripts/install-packages.sh
+cmake --preset "$preset"
+cmake --build --preset "$preset" --parallel "$(nproc)" --target "${targets[@]:-all}"
