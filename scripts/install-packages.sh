@@ -9,7 +9,7 @@ packages=(
   libopenexr-dev libimath-dev libpng-dev libzip-dev
   libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
   libtinygltf-dev
-  libeigen3-dev libceres-dev libtbb-dev libembree-dev
+  libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   openexr # exrheader, which must understand our files
   python3 # scripts/measure.sh
