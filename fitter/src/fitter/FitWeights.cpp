@@ -7,13 +7,13 @@
 
 namespace weft {
 
-double displayWeight(float luminance) {
+float displayWeight(float luminance) {
   // The slope of y^(1/2.2) is y^-0.55; 0.01 is about where a display's black begins.
-  return 1.0 / std::sqrt(std::max(luminance, 0.0f) + 0.01);
+  return 1.0f / std::sqrt(std::max(luminance, 0.0f) + 0.01f);
 }
 
-std::vector<double> displayWeights(std::span<const float> luminance) {
-  std::vector<double> weights;
+std::vector<float> displayWeights(std::span<const float> luminance) {
+  std::vector<float> weights;
   weights.reserve(luminance.size());
   for (float value : luminance) weights.push_back(displayWeight(value));
   return weights;

@@ -12,10 +12,10 @@ namespace weft {
 ///
 /// Plain least squares on linear values spends everything on highlights; light, on the other hand, adds up
 /// only in linear values.
-double displayWeight(float luminance);
+float displayWeight(float luminance);
 
 /// displayWeight() of every sample.
-std::vector<double> displayWeights(std::span<const float> luminance);
+std::vector<float> displayWeights(std::span<const float> luminance);
 
 /// The base colour c of a texel for which c Y looks closest to its linear RGB samples: sum(w RGB Y) / sum(w
 /// Y^2) with the squares of the display's weights; white for a black texel. Its luminance is 1.

@@ -1,22 +1,12 @@
 #pragma once
 
 #include "weft/fitter/Fitter.h"
+#include "weft/fitter/LobeSolver.h"
 
 namespace weft {
 
-/// What is the same for all texels of an `rfnl` fit.
-struct RfnlProblem {
-  std::vector<glm::dvec3> lights;
-  std::vector<double>
-      cosines;  ///< what the model is multiplied by for each light: n.l, or 1 if it contains it
-  std::vector<std::vector<int>> neighbors;  ///< of each light, the six nearest others
-  std::size_t views = 0;
-  bool modelHasCosine = false;
-  double largestExponent = 80.0;  ///< a sharper lobe could hide between two lights
-};
-
-/// Fits `rfnl`: the lobes of each view by Levenberg-Marquardt (Ceres' TinySolver) from several starts,
-/// alternating with a closed-form diffuse albedo where the views share one.
+/// Fits `rfnl`: the lobes of each view from several starts (LobeSolver.h), alternating with a closed-form
+/// diffuse albedo where the views share one.
 class RfnlFitter : public TexelFitter {
  public:
   /// Fails where there are fewer lights than parameters of a view.
@@ -27,9 +17,11 @@ class RfnlFitter : public TexelFitter {
  private:
   explicit RfnlFitter(const FitProblem& problem);
 
-  RfnlProblem problem_;
+  LobeProblem problem_;
+  std::vector<std::vector<int>> neighbors_;  ///< of each light, the six nearest others, the nearest first
   int lobes_ = 0;
   bool ownDiffuseAlbedo_ = false;
+  bool modelHasCosine_ = false;
 };
 
 }  // namespace weft

@@ -26,12 +26,12 @@ void RfpFitter::fit(std::span<const float> luminance, std::span<float>, std::spa
   const auto lights = static_cast<std::size_t>(basis_.rows());
   for (std::size_t view = 0; view * lights < luminance.size(); ++view) {
     const std::span<const float> samples = luminance.subspan(view * lights, lights);
-    const std::vector<double> weights = displayWeights(samples);
+    const std::vector<float> weights = displayWeights(samples);
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
     for (std::size_t i = 0; i < lights; ++i) {
       const auto row = basis_.row(static_cast<Eigen::Index>(i));
-      const double squared = weights[i] * weights[i];
+      const double squared = double{weights[i]} * weights[i];
       normal.noalias() += squared * row.transpose() * row;
       right += squared * samples[i] * row.transpose();
     }
