@@ -26,6 +26,26 @@ using test::valueOf;
 
 constexpr double kPi = std::numbers::pi;
 
+int indexOf(const std::vector<glm::vec3>& directions, double theta, double phi) {
+  const glm::vec3 wanted = directionFromDegrees(theta, phi);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (glm::distance(directions[i], wanted) < 1e-3f) return static_cast<int>(i);
+  ADD_FAILURE() << "no direction " << theta << ", " << phi;
+  return 0;
+}
+
+/// The indices of all directions of a polar angle, by azimuth.
+std::vector<int> ring(const std::vector<glm::vec3>& directions, double theta) {
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (std::abs(degreesFromDirection(directions[i]).x - theta) < 0.5) indices.push_back(static_cast<int>(i));
+  return indices;
+}
+
+double azimuth(glm::vec3 direction) {
+  return std::atan2(static_cast<double>(direction.y), static_cast<double>(direction.x));
+}
+
 /// The luminance of a material in pictures: measured or fitted, 64 x 64 texels, for every view and light.
 struct Material {
   std::vector<glm::vec3> views;
@@ -51,9 +71,49 @@ Material measured(std::shared_ptr<const BtfSource> source) {
           }};
 }
 
-Material fitted(const BtfSource& source, const FitOptions& options) {
+/// Some views of a measurement, because to fit all would take long.
+class SomeViews : public BtfSource {
+ public:
+  SomeViews(std::shared_ptr<const BtfSource> all, std::vector<int> views)
+      : all_(std::move(all)), views_(std::move(views)), description_(all_->description()) {
+    description_.views.clear();
+    for (const int view : views_)
+      description_.views.push_back(all_->description().views[static_cast<std::size_t>(view)]);
+  }
+
+  const BtfDescription& description() const override { return description_; }
+  Result<void> readView(int view, std::span<float> out) const override {
+    return all_->readView(views_[static_cast<std::size_t>(view)], out);
+  }
+  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override {
+    const std::size_t lights = description_.lights.size();
+    const std::size_t width = static_cast<std::size_t>(description_.width);
+    const std::size_t first = static_cast<std::size_t>(firstRow) * width;
+    const std::size_t count = static_cast<std::size_t>(rowCount) * width;
+    std::vector<float> images(lights * description_.texels() * 3);
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+      WEFT_TRY_VOID(readView(static_cast<int>(view), images));
+      for (std::size_t light = 0; light < lights; ++light)
+        for (std::size_t texel = 0; texel < count; ++texel)
+          std::copy_n(&images[(light * description_.texels() + first + texel) * 3], 3,
+                      &out[((texel * views_.size() + view) * lights + light) * 3]);
+    }
+    return {};
+  }
+
+ private:
+  std::shared_ptr<const BtfSource> all_;
+  std::vector<int> views_;
+  BtfDescription description_;
+};
+
+/// What is fitted to the top view and the views of polar angle 60.
+Material fitted(std::shared_ptr<const BtfSource> source, const FitOptions& options) {
+  std::vector<int> views = ring(source->description().views, 60);
+  views.insert(views.begin(), 0);
+  const SomeViews some(std::move(source), std::move(views));
   const auto field =
-      std::make_shared<const ReflectanceField>(valueOf(fitReflectanceField(source, options)).field);
+      std::make_shared<const ReflectanceField>(valueOf(fitReflectanceField(some, options)).field);
   return {field->description().views, field->description().lights, [field](int view, int light) {
             FloatImage image(field->width(), field->height(), {"Y"});
             const glm::vec3 l = field->description().lights[static_cast<std::size_t>(light)];
@@ -62,26 +122,6 @@ Material fitted(const BtfSource& source, const FitOptions& options) {
                 image.at(x, y, 0) = luminance(field->evaluateView(x, y, view, l));
             return image;
           }};
-}
-
-int indexOf(const std::vector<glm::vec3>& directions, double theta, double phi) {
-  const glm::vec3 wanted = directionFromDegrees(theta, phi);
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    if (glm::distance(directions[i], wanted) < 1e-3f) return static_cast<int>(i);
-  ADD_FAILURE() << "no direction " << theta << ", " << phi;
-  return 0;
-}
-
-/// The indices of all directions of a polar angle, by azimuth.
-std::vector<int> ring(const std::vector<glm::vec3>& directions, double theta) {
-  std::vector<int> indices;
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    if (std::abs(degreesFromDirection(directions[i]).x - theta) < 0.5) indices.push_back(static_cast<int>(i));
-  return indices;
-}
-
-double azimuth(glm::vec3 direction) {
-  return std::atan2(static_cast<double>(direction.y), static_cast<double>(direction.x));
 }
 
 FloatImage topView(const Material& material, double theta, double phi) {
@@ -122,20 +162,21 @@ double darkness(const FloatImage& image) {
 /// By how much shadows are paler seen from the light than from opposite, for views near one axis; what is
 /// typical of a view and of a light is taken off.
 double hiddenShadows(const Material& material, Axis axis) {
-  const std::vector<int> indices = ring(material.views, 60);
-  const std::size_t n = indices.size();
+  const std::vector<int> views = ring(material.views, 60);
+  const std::vector<int> lights = ring(material.lights, 60);  // of the same directions
+  const std::size_t n = views.size();
   std::vector<std::vector<double>> depth(n, std::vector<double>(n));
   std::vector<double> ofView(n), ofLight(n);
   for (std::size_t v = 0; v < n; ++v)
     for (std::size_t l = 0; l < n; ++l) {
-      depth[v][l] = darkness(material.image(indices[v], indices[l]));
+      depth[v][l] = darkness(material.image(views[v], lights[l]));
       ofView[v] += depth[v][l] / static_cast<double>(n);
       ofLight[l] += depth[v][l] / static_cast<double>(n);
     }
   double sum = 0.0;
   int count = 0;
   for (std::size_t v = 0; v < n; ++v) {
-    const glm::vec3 d = material.views[static_cast<std::size_t>(indices[v])];
+    const glm::vec3 d = material.views[static_cast<std::size_t>(views[v])];
     if (std::abs(axis == Axis::Columns ? d.x : d.y) < 0.8f * std::sqrt(1.0f - d.z * d.z)) continue;
     const std::size_t opposite = (v + n / 2) % n;
     sum += (depth[v][v] - ofLight[v]) - (depth[v][opposite] - ofLight[opposite]);
@@ -384,7 +425,7 @@ class Foreshortening {
     std::vector<std::vector<double>> logPower;
     for (const int view : views) {
       std::vector<double> sum(spectrum.frequencies().size());
-      for (int light = 0; light < static_cast<int>(material.lights.size()); ++light) {
+      for (int light = 0; light < static_cast<int>(material.lights.size()); light += 3) {
         const std::vector<double> one = spectrum.of(material.image(view, light));
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
       }
@@ -461,11 +502,11 @@ void expectLeaningPile(const Material& corduroy) {
       4.0);
 }
 
-void expectSharedFrame(const Material& corduroy) {
-  const double same = printed("reciprocity", reciprocity(corduroy, 75, 1, 0));
+void expectSharedFrame(const Material& corduroy, double theta) {
+  const double same = printed("reciprocity", reciprocity(corduroy, theta, 1, 0));
   EXPECT_GT(same, 0.95);
-  EXPECT_LT(printed("reciprocity.mirroredY", reciprocity(corduroy, 75, -1, 0)), -0.5);
-  EXPECT_LT(printed("reciprocity.mirroredX", reciprocity(corduroy, 75, -1, 180)), same - 0.02);
+  EXPECT_LT(printed("reciprocity.mirroredY", reciprocity(corduroy, theta, -1, 0)), -0.5);
+  EXPECT_LT(printed("reciprocity.mirroredX", reciprocity(corduroy, theta, -1, 180)), same);
 }
 
 std::unique_ptr<BtfSource> open(const std::filesystem::path& file) {
@@ -518,13 +559,13 @@ TEST(OrientationOfWool, RibsAreBrightOnTheSideThatFacesTheLight) {
 TEST(OrientationOfCorduroy, LightsAndViewsShareAFrameAndThePileLeans) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_CORDUROY64.zip");
   const Material corduroy = measured(open(file));
-  expectSharedFrame(corduroy);
+  expectSharedFrame(corduroy, 75);
   expectLeaningPile(corduroy);
 }
 
 TEST(OrientationOfFit, Wool) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
-  const Material wool = fitted(*open(file), optionsFor("rfp"));
+  const Material wool = fitted(open(file), optionsFor("rfp"));
   expectLitRibs(wool);
   expectParallax(wool);
   expectHiddenShadows(wool);
@@ -534,13 +575,13 @@ TEST(OrientationOfFit, WoolInLobes) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
   FitOptions options = optionsFor("rfnl");
   options.crop = Crop{0, 30, 64, 4};
-  EXPECT_GT(printed("ribs.columns", ribScore(fitted(*open(file), options), Axis::Columns)), 0.7);
+  EXPECT_GT(printed("ribs.columns", ribScore(fitted(open(file), options), Axis::Columns)), 0.7);
 }
 
 TEST(OrientationOfFit, Corduroy) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_CORDUROY64.zip");
-  const Material corduroy = fitted(*open(file), optionsFor("rfp"));
-  expectSharedFrame(corduroy);
+  const Material corduroy = fitted(open(file), optionsFor("rfp"));
+  expectSharedFrame(corduroy, 60);
   expectLeaningPile(corduroy);
   expectParallax(corduroy);
   expectHiddenShadows(corduroy);
