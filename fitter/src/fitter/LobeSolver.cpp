@@ -58,18 +58,21 @@ HWY_INLINE Vector exp2(Vector x) {
   return hn::Mul(sum, hn::BitCast(Tag(), power));
 }
 
-// The normal equations of N unknowns: the lower triangle of J^T J, row by row, J^T r and r^T r.
+// The normal equations of N unknowns: the lower triangle of J^T J, row by row, J^T r and r^T r; and the
+// residuals' product with what the diffuse albedo is multiplied by.
 template <int N>
 struct NormalEquations {
   static constexpr int kTriangle = N * (N + 1) / 2;
   std::array<Vector, kTriangle> matrix;
   std::array<Vector, N> gradient;
   Vector cost;
+  Vector diffuseSlope;
 
   void takeFrom(const NormalEquations& other, Mask where) {
     for (int i = 0; i < kTriangle; ++i) matrix[i] = hn::IfThenElse(where, other.matrix[i], matrix[i]);
     for (int i = 0; i < N; ++i) gradient[i] = hn::IfThenElse(where, other.gradient[i], gradient[i]);
     cost = hn::IfThenElse(where, other.cost, cost);
+    diffuseSlope = hn::IfThenElse(where, other.diffuseSlope, diffuseSlope);
   }
 };
 
@@ -226,7 +229,7 @@ class Batch {
         lights_(problem.lights.size()),
         lanes_(hn::Lanes(Tag())),
         floats_(
-            hwy::AllocateAligned<float>(lanes_ * (2 * lights_ + kLightsAtOnce * N + 2 * kParameters + 3))),
+            hwy::AllocateAligned<float>(lanes_ * (2 * lights_ + kLightsAtOnce * N + 2 * kParameters + 4))),
         lane_(lanes_) {
     float* next = floats_.get();
     const auto take = [&](std::size_t vectors) { return std::exchange(next, next + vectors * lanes_); };
@@ -238,6 +241,7 @@ class Batch {
     damping_ = take(1);
     cost_ = take(1);
     decrease_ = take(1);
+    diffuseSlope_ = take(1);
     std::fill(floats_.get(), next, 0.0f);
   }
 
@@ -246,7 +250,7 @@ class Batch {
     NormalEquations<N> current;
     current.matrix.fill(hn::Zero(Tag()));
     current.gradient.fill(hn::Zero(Tag()));
-    current.cost = hn::Zero(Tag());
+    current.cost = current.diffuseSlope = hn::Zero(Tag());
     while (active_ > 0) iterate(current);
   }
 
@@ -275,6 +279,7 @@ class Batch {
     }
     hn::Store(hn::IfThenElse(better, tried.cost, oldCost), d, cost_);
     hn::Store(hn::IfThenElse(better, hn::Sub(oldCost, tried.cost), oldCost), d, decrease_);
+    hn::Store(current.diffuseSlope, d, diffuseSlope_);
     const Vector damping = hn::Load(d, damping_);
     const Vector next =
         hn::IfThenElse(better, hn::Max(hn::Mul(damping, constant(0.15f)), constant(kSmallestDamping)),
@@ -302,6 +307,7 @@ class Batch {
   void finish(std::size_t lane) {
     LobeJob& job = *lane_[lane].job;
     job.cost = cost_[lane];
+    job.diffuseSlope = diffuseSlope_[lane];
     for (std::size_t k = 0; k < kParameters; ++k)
       if (std::isfinite(cost_[lane])) job.parameters[k] = parameters_[k * lanes_ + lane];
     lane_[lane].job = nullptr;
@@ -332,7 +338,7 @@ class Batch {
     const Vector diffuse = hn::Mul(p[4 * K], p[4 * K]);
     const Vector diffuseByRoot = hn::Add(p[4 * K], p[4 * K]);
     equations.gradient.fill(hn::Zero(d));
-    equations.cost = hn::Zero(d);
+    equations.cost = equations.diffuseSlope = hn::Zero(d);
     equations.matrix.fill(hn::Zero(d));
     for (std::size_t first = 0; first < lights_; first += kLightsAtOnce) {
       const std::size_t last = std::min(first + kLightsAtOnce, lights_);
@@ -348,6 +354,7 @@ class Batch {
           equations.gradient[k] = hn::MulAdd(derivatives[k], residual, equations.gradient[k]);
         }
         equations.cost = hn::MulAdd(residual, residual, equations.cost);
+        equations.diffuseSlope = hn::MulAdd(scale, residual, equations.diffuseSlope);
       }
       addBlocks<N>(derivatives_, last - first, equations.matrix);
     }
@@ -366,6 +373,7 @@ class Batch {
   float* trial_ = nullptr;
   float* damping_ = nullptr;
   float* cost_ = nullptr;
+  float* diffuseSlope_ = nullptr;
   float* decrease_ = nullptr;  // by the last step; the whole cost where it was refused
   std::vector<Lane> lane_;
   std::size_t nextJob_ = 0;

@@ -110,16 +110,17 @@ class TexelFit {
         luminance_(luminance),
         weights_(displayWeights(luminance)),
         parameters_(views_ * stride_),
-        costs_(views_, std::numeric_limits<float>::infinity()) {}
+        costs_(views_, std::numeric_limits<float>::infinity()),
+        diffuseSlopes_(views_) {}
 
   // Every view alone, from a broad lobe and peaks, from peaks alone, and from what became of the view before
   // it, since neighbouring views look alike; the best goes on.
   void fitViews() {
-    for (const bool withBroadLobe : {true, false}) {
-      std::vector<float> starts;
-      for (std::size_t v = 0; v < views_; ++v) appendStart(v, withBroadLobe, starts);
-      tryStarts(std::move(starts));
-    }
+    std::vector<float> broadAndPeaks;
+    std::vector<float> peaksAlone;
+    for (std::size_t v = 0; v < views_; ++v) appendStarts(v, broadAndPeaks, peaksAlone);
+    tryStarts(std::move(broadAndPeaks));
+    tryStarts(std::move(peaksAlone));
     std::vector<float> previous(parameters_.begin(),
                                 parameters_.begin() + static_cast<std::ptrdiff_t>(stride_));
     previous.insert(previous.end(), parameters_.begin(),
@@ -162,7 +163,8 @@ class TexelFit {
     return lobes;
   }
 
-  void appendStart(std::size_t view, bool withBroadLobe, std::vector<float>& starts) const {
+  void appendStarts(std::size_t view, std::vector<float>& broadAndPeaks,
+                    std::vector<float>& peaksAlone) const {
     std::vector<float> reflectance(lights_);
     for (std::size_t i = 0; i < lights_; ++i)
       reflectance[i] = luminance_[view * lights_ + i] / std::max(problem_.cosines[i], 0.2f);
@@ -173,23 +175,26 @@ class TexelFit {
     };
     const float floor = quantile(lights_ / 4);
     const float largest = problem_.largestExponent;
-    const auto append = [&](const LobeParameters& lobe) {
+    const auto append = [](std::vector<float>& starts, const LobeParameters& lobe) {
       starts.insert(starts.end(), lobe.begin(), lobe.end());
     };
 
-    int peakLobes = lobes_;
-    if (withBroadLobe) {
-      glm::vec3 sum(0.0f, 0.0f, 1e-6f);
-      for (std::size_t i = 0; i < lights_; ++i)
-        sum += std::max(reflectance[i] - floor, 0.0f) * problem_.lights[i];
-      append(lobeParameters(quantile(lights_ * 9 / 10) - floor, glm::normalize(sum), 2.0f, largest));
-      --peakLobes;
+    glm::vec3 sum(0.0f, 0.0f, 1e-6f);
+    for (std::size_t i = 0; i < lights_; ++i)
+      sum += std::max(reflectance[i] - floor, 0.0f) * problem_.lights[i];
+    append(broadAndPeaks,
+           lobeParameters(quantile(lights_ * 9 / 10) - floor, glm::normalize(sum), 2.0f, largest));
+    const std::vector<std::size_t> peaks =
+        peaksOf(reflectance, neighbors_, problem_.lights, static_cast<std::size_t>(lobes_));
+    for (std::size_t j = 0; j < peaks.size(); ++j) {
+      const float height = 0.5f * (reflectance[peaks[j]] - floor);
+      append(peaksAlone, lobeParameters(height, problem_.lights[peaks[j]], 5.0f, largest));
+      if (j + 1 < peaks.size())
+        append(broadAndPeaks, lobeParameters(height, problem_.lights[peaks[j]], 10.0f, largest));
     }
-    for (std::size_t peak :
-         peaksOf(reflectance, neighbors_, problem_.lights, static_cast<std::size_t>(peakLobes)))
-      append(lobeParameters(0.5f * (reflectance[peak] - floor), problem_.lights[peak],
-                            withBroadLobe ? 10.0f : 5.0f, largest));
-    starts.push_back(std::sqrt(std::max(0.8f * floor, 1e-6f)));
+    const float diffuseRoot = std::sqrt(std::max(0.8f * floor, 1e-6f));
+    broadAndPeaks.push_back(diffuseRoot);
+    peaksAlone.push_back(diffuseRoot);
   }
 
   std::vector<LobeJob> jobsAt(std::vector<float>& parameters) const {
@@ -213,22 +218,22 @@ class TexelFit {
   void improve(DiffuseSolve diffuse, int iterations) {
     std::vector<LobeJob> jobs = jobsAt(parameters_);
     solveLobes(problem_, lobes_, diffuse, iterations, jobs);
+    for (std::size_t v = 0; v < views_; ++v) diffuseSlopes_[v] = jobs[v].diffuseSlope;
   }
 
+  // Where the slopes of all views' costs would cancel: the costs are parabolas of the albedo as long as the
+  // lobes stay.
   float bestSharedDiffuse() const {
     double numerator = 0.0;
     double denominator = 1e-12;
     for (std::size_t v = 0; v < views_; ++v) {
-      const std::vector<Lobe> lobes = lobesOf(v);
+      double curvature = 0.0;
       for (std::size_t i = 0; i < lights_; ++i) {
-        const std::size_t sample = v * lights_ + i;
-        const double cosine = problem_.cosines[i];
-        double value = luminance_[sample];
-        for (const Lobe& lobe : lobes) value -= cosine * lobe.valueAt(problem_.lights[i]);
-        const double squared = double{weights_[sample]} * weights_[sample];
-        numerator += squared * cosine * value;
-        denominator += squared * cosine * cosine;
+        const double scale = double{weights_[v * lights_ + i]} * problem_.cosines[i];
+        curvature += scale * scale;
       }
+      numerator += curvature * diffuse(v) - diffuseSlopes_[v];
+      denominator += curvature;
     }
     return static_cast<float>(std::max(numerator / denominator, 0.0));
   }
@@ -243,6 +248,7 @@ class TexelFit {
   std::vector<float> weights_;
   std::vector<float> parameters_;  // [view][LobeJob::parameters]
   std::vector<float> costs_;
+  std::vector<float> diffuseSlopes_;
 };
 
 }  // namespace

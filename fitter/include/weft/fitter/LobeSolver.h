@@ -24,6 +24,7 @@ struct LobeJob {
   const float* weights = nullptr;    ///< factors of the residuals
   float* parameters = nullptr;       ///< improved in place; always finite if they were
   float cost = 0.0f;                 ///< set: the sum of the squared weighted residuals
+  float diffuseSlope = 0.0f;         ///< set: half the derivative of the cost by the diffuse albedo
 };
 
 enum class DiffuseSolve { Solve, Hold };
