@@ -49,6 +49,7 @@ struct Arguments {
   std::vector<std::string> materials;
   float uvScale = 1.0f;
   int views = 3;
+  std::string filter = "bilinear";
   int frames = 0;
 };
 
@@ -277,8 +278,11 @@ nlohmann::ordered_json timesAsJson(std::vector<double> times) {
 Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   const auto settings = readSettings(arguments);
   if (!settings) return tool.badUsage(settings.error());
-  WEFT_TRY(GltfScene scene, loadScene(*settings, {.textureScale = glm::vec2(arguments.uvScale),
-                                                  .interpolatedViews = arguments.views}));
+  WEFT_TRY(GltfScene scene,
+           loadScene(*settings, {.textureScale = glm::vec2(arguments.uvScale),
+                                 .interpolatedViews = arguments.views,
+                                 .filter = arguments.filter == "nearest" ? TexelFilter::Nearest
+                                                                         : TexelFilter::Bilinear}));
   if (!tool.quiet())
     for (const std::string& warning : scene.warnings)
       fmt::print(stderr, "weft-render: {}: {}\n", settings->scene, warning);
@@ -295,11 +299,15 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
       renderer.render(context, *scene.root, camera, target, {png ? kPictureBackground : glm::vec4(0.0f)}));
   WEFT_TRY_VOID(writePicture(arguments.output, target.read(context, kSupersampling)));
 
-  nlohmann::ordered_json report{
-      {"scene", settings->scene},   {"output", arguments.output},
-      {"width", settings->width},   {"height", settings->height},
-      {"views", arguments.views},   {"materials", scene.materials},
-      {"warnings", scene.warnings}, {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
+  nlohmann::ordered_json report{{"scene", settings->scene},
+                                {"output", arguments.output},
+                                {"width", settings->width},
+                                {"height", settings->height},
+                                {"views", arguments.views},
+                                {"filter", arguments.filter},
+                                {"materials", scene.materials},
+                                {"warnings", scene.warnings},
+                                {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
   if (arguments.frames > 0) {
     const RenderTarget timed(settings->width, settings->height);
     WEFT_TRY_VOID(timeFrames(1, renderer, context, *scene.root, camera, timed));  // makes the target
@@ -346,6 +354,12 @@ int main(int argc, char** argv) {
   options
       .add_option("--views", arguments.views, "measured views to interpolate between: 1 (the nearest) or 3")
       ->check(CLI::IsMember({1, 3}))
+      ->capture_default_str();
+  options
+      .add_option(
+          "--filter", arguments.filter,
+          "what is between texels: nearest, or bilinear, which is smooth and costs four times as much")
+      ->check(CLI::IsMember({"nearest", "bilinear"}))
       ->capture_default_str();
   options
       .add_option("--frames", arguments.frames,

@@ -34,17 +34,9 @@ vec3 evaluateWithCosine(vec4 shared_, ViewParameters view, vec3 l) {
 #endif
 }
 
-void main() {
-  TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
-  ivec2 size = textureSize(sharedParameters, 0);
-  // fract() of a tiny negative number rounds to 1.
-  ivec2 texel = min(ivec2(fract(texcoord * textureScale) * vec2(size)), size - 1);
+// The radiance towards the eye that one texel would give here.
+vec3 radianceOf(ivec2 texel, ViewWeights views, TangentFrame frame) {
   vec4 shared_ = texelFetch(sharedParameters, texel, 0);
-
-  ViewWeights views = findViews(toFrame(frame, normalize(eye.xyz - position)));
-#ifdef NEAREST_VIEW
-  views = nearestView(views);
-#endif
   vec3 radiance = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     if (views.weight[k] == 0.0) continue;
@@ -56,5 +48,30 @@ void main() {
       if (l.z > 0.0) radiance += views.weight[k] * irradiance * evaluateWithCosine(shared_, view, l);
     }
   }
-  color = vec4(radiance / 3.14159265358979, 1.0);
+  return radiance / 3.14159265358979;
+}
+
+void main() {
+  TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
+  ViewWeights views = findViews(toFrame(frame, normalize(eye.xyz - position)));
+#ifdef NEAREST_VIEW
+  views = nearestView(views);
+#endif
+  ivec2 size = textureSize(sharedParameters, 0);
+  vec2 place = fract(texcoord * textureScale) * vec2(size);
+#ifdef BILINEAR
+  // Lobes cannot be mixed, what they give can.
+  vec2 low = floor(place - 0.5);
+  vec2 share = place - 0.5 - low;
+  vec3 radiance = vec3(0.0);
+  for (int corner = 0; corner < 4; ++corner) {
+    ivec2 offset = ivec2(corner & 1, corner >> 1);
+    vec2 weight = mix(1.0 - share, share, vec2(offset));
+    radiance += weight.x * weight.y * radianceOf((ivec2(low) + offset + size) % size, views, frame);
+  }
+#else
+  // fract() of a tiny negative number rounds to 1.
+  vec3 radiance = radianceOf(min(ivec2(place), size - 1), views, frame);
+#endif
+  color = vec4(radiance, 1.0);
 }

@@ -190,6 +190,35 @@ TEST_F(BTFMaterialTest, AFieldThatContainsTheCosineFadesBelowTheMeasuredLights) 
   }
 }
 
+TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
+  const auto field = unevenField();
+  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.2f, -0.3f, 0.8f)));
+  const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(0.4f, 0.3f, 0.5f));
+  const glm::vec3 light = frame.toFrame(towardsLight);
+  FloatImage expected(kSize, kSize, {"R", "G", "B", "A"});
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
+      const DirectionWeights weights = lookup.locate(field->triangulation(), view);
+      const glm::vec2 place = glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) * 8.0f /
+                                  static_cast<float>(kSize) -
+                              0.5f;
+      const glm::vec2 low = glm::floor(place);
+      glm::vec3 value(0.0f);
+      for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+          const float weight = (1.0f - std::abs(place.x - low.x - static_cast<float>(dx))) *
+                               (1.0f - std::abs(place.y - low.y - static_cast<float>(dy)));
+          value += weight * field->evaluate((static_cast<int>(low.x) + dx + 8) % 8,
+                                            (static_cast<int>(low.y) + dy + 8) % 8, weights, light);
+        }
+      for (int c = 0; c < 3; ++c) expected.at(x, y, c) = value[c];
+      expected.at(x, y, 3) = 1.0f;
+    }
+  expectEqualPictures(render({.filter = TexelFilter::Bilinear}, field, frame, towardsLight), expected, 5e-4f);
+}
+
 TEST_F(BTFMaterialTest, TexturesRepeat) {
   const auto field = unevenField();
   const Frame upright{glm::mat3(1.0f)};

@@ -46,6 +46,7 @@ ShaderSource sourceFor(const ReflectanceField& field, const BTFMaterialOptions& 
   for (const auto& define : field.model().shaderDefines()) source.defines.push_back(define);
   if (field.description().hasCosine) source.defines.emplace_back("MODEL_HAS_COSINE", "");
   if (options.interpolatedViews == 1) source.defines.emplace_back("NEAREST_VIEW", "");
+  if (options.filter == TexelFilter::Bilinear) source.defines.emplace_back("BILINEAR", "");
   source.includeAliases["model.glsl"] = field.model().shaderFile();
   return source;
 }

@@ -9,10 +9,17 @@
 
 namespace weft {
 
+/// What is between the centres of texels.
+enum class TexelFilter {
+  Nearest,   ///< the nearest texel: fast, with edges where texels are larger than pixels
+  Bilinear,  ///< the results of the four nearest texels, mixed: four times the work
+};
+
 struct BTFMaterialOptions {
   glm::vec2 textureScale{1.0f};  ///< repetitions of the material per unit of texture coordinates
   int interpolatedViews =
       3;  ///< 3: paper M eq. 4; 1: the nearest measured view alone, faster, with seams between views
+  TexelFilter filter = TexelFilter::Nearest;
   bool doubleSided = false;  ///< draw back faces, too, with the relief of the front seen in the mirror
 };
 
