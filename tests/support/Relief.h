@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,12 @@
 #include "weft/core/FloatImage.h"
 
 namespace weft::test {
+
+/// Prints a score, for the table in docs/conventions.md.
+inline double printed(const char* name, double score) {
+  std::printf("[          ] %s %.3f\n", name, score);
+  return score;
+}
 
 /// Pearson's correlation of two lists of the same length: -1..1.
 inline double correlation(std::span<const double> a, std::span<const double> b) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+
+#include "TestSupport.h"
+#include "weft/fitter/BtfBaker.h"
+#include "weft/io/BtfSource.h"
+
+namespace weft::test {
+
+/// A height field ray-traced into memory, to be fitted without the detour of a file. Small ones only.
+class BakedSource : public BtfSource {
+ public:
+  BakedSource(const HeightField& field, const BakeOptions& options) {
+    description_.width = options.width;
+    description_.height = options.height;
+    description_.views = options.views;
+    description_.lights = options.lights;
+    description_.encoding = Encoding::Gamma22;
+    description_.name = "baked";
+    const BtfBaker baker = valueOf(BtfBaker::create(field, options));
+    views_.resize(options.views.size());
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+      views_[view].resize(options.lights.size() * description_.texels() * 3);
+      baker.bakeView(static_cast<int>(view), views_[view]);
+    }
+  }
+
+  const BtfDescription& description() const override { return description_; }
+
+  Result<void> readView(int view, std::span<float> out) const override {
+    std::ranges::copy(views_[static_cast<std::size_t>(view)], out.begin());
+    return {};
+  }
+
+  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override {
+    const std::size_t width = static_cast<std::size_t>(description_.width);
+    const std::size_t first = static_cast<std::size_t>(firstRow) * width;
+    auto next = out.begin();
+    for (std::size_t texel = first; texel < first + static_cast<std::size_t>(rowCount) * width; ++texel)
+      for (const std::vector<float>& view : views_)
+        for (std::size_t light = 0; light < description_.lights.size(); ++light)
+          next = std::copy_n(&view[(light * description_.texels() + texel) * 3], 3, next);
+    return {};
+  }
+
+ private:
+  BtfDescription description_;
+  std::vector<std::vector<float>> views_;  ///< [view][light][row][column][rgb]
+};
+
+}  // namespace weft::test
