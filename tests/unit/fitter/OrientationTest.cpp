@@ -96,6 +96,8 @@ FloatImage topView(const Material& material, double theta, double phi) {
 
 // --- Ribs, lights against views, shadows ---
 
+/// The flank score with +x for growing columns, or with +y for growing rows: negative where rows run against
+/// y.
 double ribScore(const Material& material, Axis axis) {
   const bool columns = axis == Axis::Columns;
   return test::flankScore(topView(material, 30, columns ? 0 : 90), topView(material, 30, columns ? 180 : 270),
