@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 #include "weft/chunks/GLName.h"
@@ -23,15 +24,19 @@ GLTexture makeImage(GLenum format, int width, int height) {
   return GLTexture(name);
 }
 
-void make(TargetObjects& objects, Precision precision, int width, int height) {
-  objects.color = makeImage(precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F, width, height);
-  objects.depth = makeImage(GL_DEPTH_COMPONENT32F, width, height);
-  objects.framebuffer = createGL<GLFramebuffer>(glCreateFramebuffers);
-  glNamedFramebufferTexture(objects.framebuffer, GL_COLOR_ATTACHMENT0, objects.color, 0);
-  glNamedFramebufferTexture(objects.framebuffer, GL_DEPTH_ATTACHMENT, objects.depth, 0);
-  WEFT_EXPECT(
-      glCheckNamedFramebufferStatus(objects.framebuffer, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
-      "every OpenGL 4.5 can render to RGBA16F and RGBA32F");
+/// False where the driver has no memory for it.
+bool make(TargetObjects& objects, Precision precision, int width, int height) {
+  TargetObjects made;
+  made.color = makeImage(precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F, width, height);
+  made.depth = makeImage(GL_DEPTH_COMPONENT32F, width, height);
+  made.framebuffer = createGL<GLFramebuffer>(glCreateFramebuffers);
+  glNamedFramebufferTexture(made.framebuffer, GL_COLOR_ATTACHMENT0, made.color, 0);
+  glNamedFramebufferTexture(made.framebuffer, GL_DEPTH_ATTACHMENT, made.depth, 0);
+  // Every OpenGL 4.5 can render to these formats, so that only storage can be missing.
+  if (glCheckNamedFramebufferStatus(made.framebuffer, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    return false;
+  objects = std::move(made);
+  return true;
 }
 
 }  // namespace
@@ -51,7 +56,12 @@ void RenderTarget::bindAndClear(GLContext& context, const glm::vec4& background)
     return;
   }
   auto& objects = context.objectsOf<TargetObjects>(owner_);
-  if (!objects.framebuffer) make(objects, precision_, width_, height_);
+  if (!objects.framebuffer && !make(objects, precision_, width_, height_)) {
+    context.report({fmt::format("OpenGL has no memory for a picture of {} x {}", width_, height_),
+                    {},
+                    "make the picture smaller"});
+    return;
+  }
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects.framebuffer);
   glViewport(0, 0, width_, height_);
   const float farthest = 1.0f;
@@ -70,14 +80,17 @@ FloatImage RenderTarget::read(GLContext& context, int downsample) const {
   const auto& objects = context.objectsOf<TargetObjects>(owner_);
   if (!objects.framebuffer) return image;
 
-  std::vector<float> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-  glGetTextureImage(objects.color, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)),
-                    pixels.data());
+  // Row by row of the result: GL counts bytes in 31 bits, and a whole picture can be gigabytes.
+  std::vector<float> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(downsample) * 4);
   const float weight = 1.0f / static_cast<float>(downsample * downsample);
-  const float* pixel = pixels.data();
-  for (int y = height_ - 1; y >= 0; --y) {  // GL's first row is the bottom one
-    for (int x = 0; x < width_; ++x)
-      for (float& value : image.texel(x / downsample, y / downsample)) value += weight * *pixel++;
+  for (int row = 0; row < image.height(); ++row) {
+    const int lowest = height_ - (row + 1) * downsample;  // GL's first row is the bottom one
+    glGetTextureSubImage(objects.color, 0, 0, lowest, 0, width_, downsample, 1, GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
+    const float* pixel = pixels.data();
+    for (int y = 0; y < downsample; ++y)
+      for (int x = 0; x < width_; ++x)
+        for (float& value : image.texel(x / downsample, row)) value += weight * *pixel++;
   }
   if (downsample == 1) image.setPrecision(precision_);
   return image;

@@ -12,7 +12,7 @@ namespace weft {
 /// renders into it.
 class RenderTarget {
  public:
-  /// Sizes must be positive; one too large for the GL is reported to the context.
+  /// Sizes must be positive; one too large for the GL or its memory is reported to the context.
   RenderTarget(int width, int height, Precision precision = Precision::Half);
 
   int width() const { return width_; }
