@@ -25,7 +25,9 @@ layout(location = 0) out vec4 color;
 vec3 evaluateWithCosine(vec4 shared_, ViewParameters view, vec3 l) {
 #ifdef MODEL_HAS_COSINE
   if (l.z < lowestLightZ) {
-    vec3 onRing = vec3(normalize(l.xy) * sqrt(1.0 - lowestLightZ * lowestLightZ), lowestLightZ);
+    // 0 where rounding lets the pole lie below a ring at the pole.
+    vec2 azimuth = l.xy * inversesqrt(max(dot(l.xy, l.xy), 1e-30));
+    vec3 onRing = vec3(azimuth * sqrt(1.0 - lowestLightZ * lowestLightZ), lowestLightZ);
     return l.z / lowestLightZ * evaluateModel(shared_, view, onRing);
   }
   return evaluateModel(shared_, view, l);

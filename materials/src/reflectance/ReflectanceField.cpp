@@ -27,7 +27,8 @@ glm::vec3 evaluateWithCosine(const ReflectanceModel& model, bool hasCosine, floa
   if (light.z <= 0.0f) return glm::vec3(0.0f);
   if (!hasCosine) return light.z * model.evaluate(shared, view, light);
   if (light.z >= lowestLightZ) return model.evaluate(shared, view, light);
-  const glm::vec2 azimuth = glm::normalize(glm::vec2(light));
+  const glm::vec2 across(light);  // 0 where rounding lets the pole lie below a ring at the pole
+  const glm::vec2 azimuth = across / std::sqrt(std::max(glm::dot(across, across), 1e-30f));
   const glm::vec3 onRing(azimuth * std::sqrt(1.0f - lowestLightZ * lowestLightZ), lowestLightZ);
   return light.z / lowestLightZ * model.evaluate(shared, view, onRing);
 }
@@ -57,7 +58,7 @@ Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const Reflecta
 
   ReflectanceField field;
   WEFT_TRY(field.triangulation_, HemisphereTriangulation::create(description.views));
-  field.lowestLightZ_ = lowestZ(description.lights);
+  field.lowestLightZ_ = std::min(lowestZ(description.lights), 1.0f);  // of unit length but for rounding
   if (description.hasCosine && field.lowestLightZ_ <= 0.0f)
     return fail("a field that contains n.l has a light on or below the horizon");
   field.model_ = std::move(model);

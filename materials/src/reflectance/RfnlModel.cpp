@@ -38,7 +38,8 @@ glm::vec3 RfnlModel::evaluate(std::span<const float> shared, std::span<const flo
   for (std::size_t j = 0; j < static_cast<std::size_t>(description_.lobes); ++j) {
     const auto lobe = view.subspan(4 * j, 4);
     const glm::vec3 direction = directionFromParabolic({lobe[1], lobe[2]});
-    value += lobe[0] * std::pow(std::max(glm::dot(direction, light), 0.0f), lobe[3]);
+    const float cosine = glm::dot(direction, light);
+    if (cosine > 0.0f) value += lobe[0] * std::pow(cosine, lobe[3]);
   }
   return std::max(value, 0.0f) * glm::vec3(shared[0], shared[1], shared[2]);
 }

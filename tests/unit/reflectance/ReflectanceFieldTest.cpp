@@ -53,6 +53,15 @@ TEST(ReflectanceField, WithTheCosineInsideFadesBelowTheLowestMeasuredLight) {
   EXPECT_EQ(field.evaluateView(0, 0, 0, directionFromDegrees(95, 30)).x, 0.0f);
 }
 
+TEST(ReflectanceField, WithTheCosineInsideAndLightFromTheNormalAloneIsFiniteEverywhere) {
+  Parts parts;
+  parts.description.hasCosine = true;
+  parts.description.lights = {{0, 0, 1.0005f}};  // as long as rounding may make it
+  const ReflectanceField field = valueOf(parts.make());
+  EXPECT_NEAR(field.evaluateView(0, 0, 0, {0, 0, 0.9999999f}).x, 1.0f, 1e-5);
+  EXPECT_NEAR(field.evaluateView(0, 0, 0, directionFromDegrees(60, 30)).x, 0.5f, 1e-5);
+}
+
 TEST(ReflectanceField, InterpolatesViewsWithTheirWeights) {
   const ReflectanceField field = valueOf(Parts().make());
   const DirectionWeights weights{{0, 1, 2}, {0.5f, 0.25f, 0.25f}};
