@@ -289,6 +289,8 @@ TEST_F(BTFMaterialTest, WhiteLooksLikeAWhiteLambertianSurface) {
 
 TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {
   EXPECT_FALSE(BTFMaterial::create(unevenField(), {.interpolatedViews = 2}));
+  EXPECT_FALSE(BTFMaterial::create(unevenField(), {.textureScale = {1, -1}}));
+  EXPECT_FALSE(BTFMaterial::create(unevenField(), {.textureScale = {0, 1}}));
 }
 
 }  // namespace

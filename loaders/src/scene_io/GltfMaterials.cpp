@@ -28,8 +28,9 @@ Result<glm::vec2> btfScale(const GltfFile& file, const tinygltf::Value& extensio
   if (scale.ArrayLen() != 2 || !scale.Get(0).IsNumber() || !scale.Get(1).IsNumber())
     return file.fail(std::string("the scale of ") + kBtfExtension + " is not two numbers");
   const glm::vec2 value(scale.Get(0).GetNumberAsDouble(), scale.Get(1).GetNumberAsDouble());
-  if (!std::isfinite(value.x) || !std::isfinite(value.y) || value.x == 0.0f || value.y == 0.0f)
-    return file.fail(std::string("the scale of ") + kBtfExtension + " is zero or too large");
+  // A negative one would mirror the image, but not the directions that its relief was measured in.
+  if (!(value.x > 0.0f && value.y > 0.0f) || !std::isfinite(value.x) || !std::isfinite(value.y))
+    return file.fail(std::string("the scale of ") + kBtfExtension + " is not positive, or too large");
   return value;
 }
 

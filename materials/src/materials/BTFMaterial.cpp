@@ -57,6 +57,10 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
                                                          const BTFMaterialOptions& options) {
   if (options.interpolatedViews != 1 && options.interpolatedViews != 3)
     return fail(fmt::format("{} views cannot be interpolated", options.interpolatedViews), {}, "1 or 3");
+  if (!(options.textureScale.x > 0.0f && options.textureScale.y > 0.0f))
+    return fail(fmt::format("the texture cannot be scaled by {} x {}", options.textureScale.x,
+                            options.textureScale.y),
+                {}, "numbers above 0");
   if (field->viewCount() * texelsFor(field->views()) > kMaximumLayers)
     return fail(fmt::format("{} views of {} texels are more than {} layers", field->viewCount(),
                             texelsFor(field->views()), kMaximumLayers));

@@ -16,7 +16,9 @@ enum class TexelFilter {
 };
 
 struct BTFMaterialOptions {
-  glm::vec2 textureScale{1.0f};  ///< repetitions of the material per unit of texture coordinates
+  /// Repetitions of the material per unit of texture coordinates; positive, because a mirrored image would
+  /// need mirrored directions.
+  glm::vec2 textureScale{1.0f};
   int interpolatedViews =
       3;  ///< 3: paper M eq. 4; 1: the nearest measured view alone, faster, with seams between views
   TexelFilter filter = TexelFilter::Nearest;
@@ -30,7 +32,8 @@ struct BTFMaterialOptions {
 /// computes what ReflectanceField::evaluate() does.
 class BTFMaterial : public ChunkMaterial {
  public:
-  /// Fails where the views do not fit into one array texture of 2,048 layers, which every GL 4.5 has.
+  /// Fails on options that are none, and where the views do not fit into one array texture of 2,048 layers,
+  /// which every GL 4.5 has.
   static Result<std::shared_ptr<BTFMaterial>> create(std::shared_ptr<const ReflectanceField> field,
                                                      const BTFMaterialOptions& options = {});
 
