@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
+#include <sstream>
 
 #include "GltfText.h"
 #include "TestField.h"
@@ -265,6 +266,24 @@ TEST(GltfLoader, MakesTheMaterialsThatTheFileNames) {
   EXPECT_TRUE(dynamic_cast<const LambertMaterial*>(firstOf<MaterialGroup>(*plain.root)->material.get()));
 }
 
+TEST(GltfLoader, ReadsTheExampleOfTheExtensionsPage) {
+  std::stringstream page;
+  page << std::ifstream(test::sourceFolder() / "docs/gltf-extension.md").rdbuf();
+  const std::string fence = "```json\n", text = page.str();
+  const std::size_t start = text.find(fence);
+  ASSERT_NE(start, std::string::npos);
+  const std::size_t first = start + fence.size();
+  const auto path = written(text.substr(first, text.find("```", first) - first));
+  test::requireDone(writeReflectanceField(test::testField(), path.parent_path() / "wool.rf.exr"));
+  const GltfScene scene = valueOf(loadGltf(path));
+  EXPECT_THAT(scene.materials, ElementsAre("wool"));
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material.get()));
+  const auto meshes = meshesOf(scene);
+  ASSERT_EQ(meshes.size(), 1u);
+  EXPECT_EQ(meshes[0].mesh->tangents, std::vector<glm::vec4>(3, {1, 0, 0, 1}));
+}
+
 constexpr const char* kTextured =
     R"({"name":"base","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
     R"("textures":[{"source":0}],"images":[{"uri":"colors.png"})";
@@ -277,7 +296,7 @@ TEST(GltfLoader, ReadsBaseColorTextures) {
 
 TEST(GltfLoader, NamesAMissingTextureAndWhatItIsFor) {
   const std::string message = failure(planeGltf(kTextured));
-  EXPECT_THAT(message, HasSubstr("colors.png: there is no such file"));
+  EXPECT_THAT(message, HasSubstr("colors.png: no such file"));
   EXPECT_THAT(message, HasSubstr("base colour of material \"base\" of scene.gltf"));
 }
 
@@ -345,6 +364,13 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenFile{"ChildOutOfRange", kMeshNode, R"({"mesh":0,"children":[9]})", "node 9"},
         BrokenFile{"ShortMatrix", kMeshNode, R"({"mesh":0,"matrix":[1,0,0]})", "transform"},
         BrokenFile{"InfiniteTranslation", kMeshNode, R"({"mesh":0,"translation":[1e300,0,0]})", "transform"},
+        BrokenFile{"InfiniteChild", kMeshNode,
+                   R"({"scale":[1e30,1e30,1e30],"children":[1]},{"mesh":0,"scale":[1e30,1e30,1e30]})",
+                   "transform"},
+        BrokenFile{"FlatCamera", R"("nodes":[{"mesh":0,"name":"plane"}])",
+                   R"("nodes":[{"mesh":0,"camera":0,"matrix":[1,0,0,0,1,0,0,0,0,0,1,0,0,0,0,1]}],)"
+                   R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}])",
+                   "camera 0"},
         BrokenFile{"HugeScene", kMeshNode, R"({"mesh":0,"scale":[1e38,1e38,1e38]})", "too large"},
         BrokenFile{"MeshOutOfRange", kMeshNode, R"({"mesh":4})", "mesh 4"},
         BrokenFile{"CameraOutOfRange", kMeshNode, R"({"mesh":0,"camera":2})", "camera 2"},
@@ -395,6 +421,9 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenFile{"BtfWithABrokenScale", R"({"name":"base"})",
                    R"({"name":"base","extensions":{"WEFT_materials_btf":{"uri":"x","scale":[0,1]}}})",
                    "scale"},
+        BrokenFile{"BtfWithAMirroringScale", R"({"name":"base"})",
+                   R"({"name":"base","extensions":{"WEFT_materials_btf":{"uri":"x","scale":[1,-1]}}})",
+                   "scale"},
         BrokenFile{"TextureOutOfRange", R"({"name":"base"})",
                    R"({"name":"base","pbrMetallicRoughness":{"baseColorTexture":{"index":3}}})", "texture 3"},
         BrokenFile{"ImageOutOfRange", R"({"name":"base"})",
@@ -421,7 +450,7 @@ TEST(GltfLoader, RefusesPositionsThatAreNotFinite) {
 TEST(GltfLoader, NamesAMissingFileAndAMissingBuffer) {
   const auto missing = loadGltf(testFolder() / "none.gltf");
   ASSERT_FALSE(missing);
-  EXPECT_THAT(missing.error().message(), HasSubstr("none.gltf: there is no such file"));
+  EXPECT_THAT(missing.error().message(), HasSubstr("none.gltf: no such file"));
   EXPECT_THAT(failure(planeGltf(R"({"name":"base"})", "none.bin")), HasSubstr("File not found : none.bin"));
   EXPECT_FALSE(loadGltf(testFolder()));
 }

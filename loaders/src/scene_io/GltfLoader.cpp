@@ -71,7 +71,9 @@ std::optional<glm::mat4> viewOf(const glm::mat4& toWorld) {
     if (!(length > 0.0f)) return std::nullopt;
     rigid[axis] = toWorld[axis] / length;
   }
-  return glm::inverse(rigid);
+  const glm::mat4 view = glm::inverse(rigid);
+  if (!isFinite(view)) return std::nullopt;  // two axes are one
+  return view;
 }
 
 class SceneReader {
@@ -119,9 +121,9 @@ class SceneReader {
       if (visit.depth > kDeepestNode) return file_.fail("the nodes are nested too deeply");
       const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(visit.index)];
       const std::optional<glm::mat4> matrix = matrixOf(node);
-      if (!matrix) return file_.fail(name + " has a broken transform");
+      const glm::mat4 toWorld = matrix ? visit.toWorld * *matrix : glm::mat4(1.0f);
+      if (!matrix || !isFinite(toWorld)) return file_.fail(name + " has a broken transform");
       const auto placed = visit.parent->addChild(std::make_shared<Transform>(*matrix), node.name);
-      const glm::mat4 toWorld = visit.toWorld * *matrix;
       WEFT_TRY_VOID(addContents(node, *placed, toWorld));
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         visits.push_back({*child, placed, toWorld, visit.depth + 1});
