@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
@@ -36,6 +37,9 @@ using namespace weft;
 
 constexpr int kSupersampling = 2;
 constexpr int kLargestSide = 8192;
+constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
+// Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
+constexpr float kLargestNumber = 1e9f;
 const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
 // Linear; 0x28 of 255 in sRGB.
 const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
@@ -73,27 +77,35 @@ struct Settings {
   std::map<std::string, std::string> materialFiles;
 };
 
+/// The number that `text` is, and nothing else; "nan" is one.
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
 std::optional<std::vector<float>> numbers(const std::string& text) {
   std::vector<float> values;
   std::stringstream stream(text);
   for (std::string word; std::getline(stream, word, ',');) {
-    float value = 0.0f;
-    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value)) return std::nullopt;
-    values.push_back(value);
+    const std::optional<float> value = parsed<float>(word);
+    if (!value || !(std::abs(*value) <= kLargestNumber)) return std::nullopt;
+    values.push_back(*value);
   }
   return values;
 }
 
 std::optional<glm::vec3> vectorFrom(const std::string& text) {
   const auto values = numbers(text);
-  if (!values || values->size() != 3) return std::nullopt;
+  if (!values || values->size() != 3 || text.ends_with(',')) return std::nullopt;
   return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
 }
 
 std::optional<int> sideFrom(const std::string& text) {
-  int side = 0;
-  if (!CLI::detail::lexical_cast(text, side) || side < 1 || side > kLargestSide) return std::nullopt;
-  return side;
+  const std::optional<int> side = parsed<int>(text);
+  return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
 }
 
 /// "A:B" as its two sides; B is empty without a colon.
@@ -122,7 +134,8 @@ bool readSize(Arguments& arguments, Settings& settings) {
 bool readCamera(const std::string& text, Settings& settings) {
   const auto [eyeText, targetText] = splitAt(text, ':');
   const auto eye = vectorFrom(eyeText), target = vectorFrom(targetText);
-  if (eye && target && *eye != *target)
+  // Squared, their distance must not vanish.
+  if (eye && target && glm::distance(*eye, *target) > 1e-9f)
     settings.viewpoint = {*eye, *target};
   else if (eye)
     return false;  // a place without a target is no name
@@ -154,6 +167,9 @@ tl::expected<Settings, std::string> readSettings(Arguments arguments) {
     return tl::unexpected(fmt::format("--size takes WxH or W H, 1 to {} pixels", kLargestSide));
   if (arguments.scene.empty()) return tl::unexpected<std::string>("SCENE is required");
   settings.scene = arguments.scene;
+  // CLI11's ranges let "nan" pass.
+  if (!(arguments.uvScale > 0.0f && arguments.uvScale <= kLargestUvScale))
+    return tl::unexpected(fmt::format("--uv-scale takes a number above 0, up to {}", kLargestUvScale));
   if (!arguments.output.ends_with(".png") && !arguments.output.ends_with(".exr"))
     return tl::unexpected<std::string>("--output must end with .png or .exr");
   if (!readCamera(arguments.camera, settings))
@@ -328,7 +344,9 @@ int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App& options = tool.options();
   options.add_option("SCENE", arguments.scene,
-                     "a .gltf or .glb file, or shape:plane, shape:sphere, shape:cloth");
+                     "a .gltf or .glb file, or shape:plane (side 1 at z = 0, facing +Z: columns of the "
+                     "material's image run along +X, its rows down, along -Y), shape:sphere (radius 1, "
+                     "poles on Y), shape:cloth (draped over a ball; up is +Y)");
   options.add_option("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
       ->required();
   options.add_option("--size", arguments.size, "WxH or W H in pixels")->expected(1, 3)->capture_default_str();
@@ -349,7 +367,6 @@ int main(int argc, char** argv) {
   options
       .add_option("--uv-scale", arguments.uvScale,
                   "repetitions of a reflectance field per unit of texture coordinates")
-      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   options
       .add_option("--views", arguments.views, "measured views to interpolate between: 1 (the nearest) or 3")

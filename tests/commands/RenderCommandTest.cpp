@@ -137,7 +137,7 @@ TEST_F(RenderCommand, ReportsWhatItMeasured) {
 }
 
 TEST_F(RenderCommand, SaysWhatIsMissing) {
-  expectBadInput(render((folder / "none.gltf").string()), "none.gltf: there is no such file");
+  expectBadInput(render((folder / "none.gltf").string()), "none.gltf: no such file");
   expectBadInput(render("shape:plane", {"--material", "*=" + (folder / "none.rf.exr").string()}),
                  "none.rf.exr");
   const std::string field =
@@ -168,7 +168,8 @@ TEST_F(RenderCommand, SaysWhichNamesThereAre) {
   const std::string scene = write("scene.gltf", test::planeGltf()).string();
   expectBadInput(render(scene, {"--material", "bass=" + (folder / "grey.rf.exr").string()}),
                  "there is no material \"bass\" (its materials are [\"base\"])");
-  expectBadInput(render(scene, {"--camera", "front"}), "there is no camera \"front\"");
+  for (const std::string camera : {"front", "nan,0,1:0,0,0", "1e30,0,0:0,0,0"})
+    expectBadInput(render(scene, {"--camera", camera}), "there is no camera \"" + camera + "\"");
 }
 
 TEST_F(RenderCommand, RefusesBadUsage) {
@@ -177,12 +178,14 @@ TEST_F(RenderCommand, RefusesBadUsage) {
   expectBadUsage(test::runProgram("weft-render", {"shape:plane", "-o", (folder / "out.jpg").string()}),
                  ".png or .exr");
   expectBadUsage(render("shape:plane", {"--views", "2"}), "--views");
-  expectBadUsage(render("shape:plane", {"--uv-scale", "0"}), "--uv-scale");
-  expectBadUsage(render("shape:plane", {"--light", "1,2"}), "--light");
-  expectBadUsage(render("shape:plane", {"--light", "1,2,3:1,-1,1"}), "--light");
-  expectBadUsage(render("shape:plane", {"--camera", "1,2,3:4,5"}), "--camera");
+  for (const char* scale : {"0", "-1", "nan", "1e38"})
+    expectBadUsage(render("shape:plane", {"--uv-scale", scale}), "--uv-scale");
+  for (const char* light : {"1,2", "1,2,3,", "1,2,nan", "1,2,1e30", "1,2,3:1,-1,1", "1,2,3:1,inf,1"})
+    expectBadUsage(render("shape:plane", {"--light", light}), "--light");
+  for (const char* camera : {"1,2,3:4,5", "1,2,3:1,2,3", "1e-30,0,0:0,0,0"})
+    expectBadUsage(render("shape:plane", {"--camera", camera}), "--camera");
   expectBadUsage(render("shape:plane", {"--material", "wool.rf.exr"}), "--material");
-  for (const char* size : {"40", "0x30", "40x", "40xx30", "9000x30", "axb"})
+  for (const char* size : {"40", "0x30", "40x", "40xx30", "9000x30", "100000x100000", "axb"})
     expectBadUsage(test::runProgram("weft-render", {"shape:plane", "-o", output, "--size", size}), "--size");
 }
 
