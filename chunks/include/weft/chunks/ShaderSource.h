@@ -21,8 +21,6 @@ struct ShaderSource {
   std::map<std::string, std::string> includeAliases{};
   /// Files found here are taken instead of those compiled in; empty for none.
   std::filesystem::path overrideFolder{};
-
-  bool operator==(const ShaderSource&) const = default;
 };
 
 /// The text of one stage with its includes put in, each file once.

@@ -16,7 +16,6 @@ class Node {
       : core_(std::move(core)), name_(std::move(name)) {}
 
   const NodeCore& core() const { return *core_; }
-  const std::shared_ptr<const NodeCore>& sharedCore() const { return core_; }
   const std::string& name() const { return name_; }
   const std::vector<std::shared_ptr<Node>>& children() const { return children_; }
 
