@@ -1,4 +1,4 @@
-#include "FileBytes.h"
+#include "weft/io/FileBytes.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@ namespace weft {
 Result<std::vector<std::uint8_t>> readFileBytes(const std::filesystem::path& path, std::size_t limit) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return fail("no such file", path.string());
+  if (!std::filesystem::is_regular_file(path, error))
+    return fail("cannot be read: not a file", path.string());
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return fail("cannot be read: " + error.message(), path.string());
   if (size > limit)

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "FileBytes.h"
 #include "FileCollection.h"
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <memory>
 
-#include "FileBytes.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Color.h"
 #include "weft/core/Contract.h"
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {

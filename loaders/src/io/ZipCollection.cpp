@@ -3,8 +3,8 @@
 
 #include <mutex>
 
-#include "FileBytes.h"
 #include "FileCollection.h"
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {

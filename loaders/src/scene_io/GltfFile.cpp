@@ -6,31 +6,18 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
+
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 31;
 constexpr int kDeepestJson = 64;
-
-Result<std::vector<std::uint8_t>> readBytes(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return fail("there is no such file", path.string());
-  if (!std::filesystem::is_regular_file(path, error)) return fail("this is not a file", path.string());
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return fail(error.message(), path.string());
-  if (size > kLargestFile) return fail("the file is larger than 2 GiB", path.string());
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    return fail("the file cannot be read", path.string());
-  return bytes;
-}
 
 /// How deeply arrays and objects are nested; tinygltf descends by recursion.
 int jsonDepth(std::string_view json) {
@@ -93,7 +80,7 @@ tinygltf::FsCallbacks fileAccess(std::string& folder) {
   access.ExpandFilePath = [](const std::string& path, void*) { return path; };
   access.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
                             void*) {
-    auto bytes = readBytes(path);
+    auto bytes = readFileBytes(path, kLargestFile);
     if (!bytes && error) *error = bytes.error().what;
     if (bytes) *out = std::move(*bytes);
     return bytes.has_value();
@@ -208,7 +195,7 @@ float componentToFloat(const std::uint8_t* bytes, int componentType, bool normal
 }  // namespace
 
 Result<GltfFile> readGltfFile(const std::filesystem::path& path) {
-  WEFT_TRY(std::vector<std::uint8_t> bytes, readBytes(path));
+  WEFT_TRY(std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestFile));
   WEFT_TRY(const std::string_view json, jsonText(bytes, path));
   if (jsonDepth(json) > kDeepestJson) return fail("the JSON is nested too deeply", path.string());
   const auto size = static_cast<unsigned int>(bytes.size());
@@ -299,7 +286,7 @@ Result<std::vector<std::uint8_t>> imageBytes(const GltfFile& file, int index) {
   }
   if (!image.image.empty()) return image.image;
   if (image.uri.empty()) return file.fail("image " + std::to_string(index) + " is empty");
-  return readBytes(resolve(file, image.uri));
+  return readFileBytes(resolve(file, image.uri), kLargestImageFile);
 }
 
 std::filesystem::path resolve(const GltfFile& file, const std::string& uri) {

@@ -12,7 +12,8 @@ namespace weft {
 /// Encoded images larger than this are refused before memory is taken.
 constexpr std::size_t kLargestImageFile = std::size_t{256} << 20;
 
-/// A whole file; fails where it is missing, unreadable or larger than `limit`.
+/// The bytes of a whole file; fails, with file and reason, where it is missing, unreadable, no regular file
+/// or larger than `limit` bytes, which is found before memory is taken.
 Result<std::vector<std::uint8_t>> readFileBytes(const std::filesystem::path& path, std::size_t limit);
 
 }  // namespace weft
