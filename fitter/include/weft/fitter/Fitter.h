@@ -23,9 +23,9 @@ struct Crop {
 /// How a fit is made. Every default is what most users want.
 struct FitOptions {
   ModelDescription model;
-  Precision precision = Precision::Half;  ///< half: a third of the errors' fourth digit, half of the memory
-  bool cosineInModel =
-      false;  ///< true: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading
+  Precision precision = Precision::Half;  ///< of the stored parameters; half changes eps by less than 0.0001
+  /// True: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading.
+  bool cosineInModel = false;
   std::optional<Crop> crop;                   ///< texels to fit; all by default
   std::size_t memory = std::size_t{4} << 30;  ///< bytes for the samples of one block of rows
 
