@@ -7,5 +7,5 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 targets=("${@:2}")
 scripts/install-packages.sh
-cmake --preset "$preset"
+cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset" --parallel "$(nproc)" --target "${targets[@]:-all}"
