@@ -12,11 +12,15 @@ layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
 layout(location = 2) in vec4 inTangent;
 layout(location = 3) in vec2 inTexcoord;
+layout(location = 4) in vec2 inTexcoord1;
+layout(location = 5) in vec4 inColor;
 
 out vec3 position;
 out vec3 normal;
 out vec3 tangent;
 out vec2 texcoord;
+out vec2 texcoord1;
+out vec4 vertexColor;  // linear
 flat out float handedness;  // +1 or -1: of the bitangent, which points up the image
 
 void main() {
@@ -30,5 +34,7 @@ void main() {
   // A mirroring transform turns the handedness of the whole frame.
   handedness = determinant(mat3(model)) < 0.0 ? -inTangent.w : inTangent.w;
   texcoord = inTexcoord;
+  texcoord1 = inTexcoord1;
+  vertexColor = inColor;
   gl_Position = viewProjection * world;
 }

@@ -13,6 +13,7 @@ struct MeshObjects {
   GLVertexArray array;
   GLBuffer vertices;
   GLBuffer indices;
+  GLenum mode = GL_TRIANGLES;
   GLsizei indexCount = 0;
 };
 

@@ -137,7 +137,7 @@ void draw(GLContext& context, const std::vector<DrawItem>& items, const FrameObj
                       sizeof(ObjectBlock));
     glBindVertexArray(mesh.array);
     glFrontFace(mirrors(item.model) ? GL_CW : GL_CCW);
-    glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+    glDrawElements(mesh.mode, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
   }
   active->deactivate(context);
   glFrontFace(GL_CCW);

@@ -72,6 +72,8 @@ void unshareVertices(Mesh& mesh) {
   gather(mesh.positions);
   gather(mesh.tangents);
   gather(mesh.texcoords);
+  gather(mesh.texcoords1);
+  gather(mesh.colors);
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
@@ -125,6 +127,8 @@ void copyVertex(Mesh& mesh, std::uint32_t vertex) {
   mesh.positions.push_back(glm::vec3(mesh.positions[vertex]));
   mesh.normals.push_back(glm::vec3(mesh.normals[vertex]));
   mesh.texcoords.push_back(glm::vec2(mesh.texcoords[vertex]));
+  if (!mesh.texcoords1.empty()) mesh.texcoords1.push_back(glm::vec2(mesh.texcoords1[vertex]));
+  if (!mesh.colors.empty()) mesh.colors.push_back(glm::vec4(mesh.colors[vertex]));
 }
 
 }  // namespace

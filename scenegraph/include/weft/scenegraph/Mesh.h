@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -8,17 +9,29 @@
 
 namespace weft {
 
-/// Indexed triangles, counter-clockwise seen from the front, in glTF's conventions: V runs down the image,
-/// and the bitangent, which points *up* the image, is tangent.w (N x T).
+/// What a mesh's indices join: triples to triangles, pairs to lines, or each one a point. Lines and points
+/// are a pixel wide and have no back.
+enum class Topology { Triangles, Lines, Points };
+
+/// How many indices make one of them.
+constexpr std::size_t verticesPer(Topology topology) {
+  return topology == Topology::Triangles ? 3 : topology == Topology::Lines ? 2 : 1;
+}
+
+/// Indexed triangles (or lines, or points), counter-clockwise seen from the front, in glTF's conventions: V
+/// runs down the image, and the bitangent, which points *up* the image, is tangent.w (N x T).
 ///
-/// All attribute lists are as long as `positions`; generateNormals() and generateTangents() fill what a file
+/// Attribute lists are as long as `positions`; generateNormals() and generateTangents() fill what a file
 /// leaves out.
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;   ///< unit
   std::vector<glm::vec4> tangents;  ///< xyz unit and along +U, w = +1 or -1
   std::vector<glm::vec2> texcoords;
-  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<glm::vec2> texcoords1;  ///< a second set, for the textures that ask for it; empty: zeros
+  std::vector<glm::vec4> colors;      ///< linear RGB and alpha, which PBRMaterial multiplies; empty: white
+  std::vector<std::uint32_t> indices;
+  Topology topology = Topology::Triangles;
 };
 
 }  // namespace weft
