@@ -96,4 +96,13 @@ void AtomicFile::removeAllPending() {
   all.temporaries.clear();
 }
 
+Result<void> writeWholeFile(const fs::path& target, std::string_view contents) {
+  WEFT_TRY(AtomicFile file, AtomicFile::create(target));
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << contents;
+  stream.close();
+  if (!stream) return fail("writing failed", target.string(), "is the disk full?");
+  return file.commit();
+}
+
 }  // namespace weft

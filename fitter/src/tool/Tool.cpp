@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -35,15 +34,6 @@ void endCleanlyWhenInterrupted() {
     AtomicFile::removeAllPending();
     _exit(128 + signal);
   }).detach();
-}
-
-Result<void> writeText(const std::filesystem::path& path, const std::string& text) {
-  WEFT_TRY(AtomicFile file, AtomicFile::create(path));
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) return fail("writing failed", path.string(), "is the disk full?");
-  return file.commit();
 }
 
 }  // namespace
@@ -129,7 +119,7 @@ Result<void> Tool::writeJson(const nlohmann::ordered_json& report) const {
   if (data_->json.empty()) return {};
   const std::string text =
       report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (!jsonOnStdout()) return writeText(data_->json, text);
+  if (!jsonOnStdout()) return writeWholeFile(data_->json, text);
   std::cout << text << std::flush;
   if (!std::cout) return fail("writing failed", "stdout");
   return {};

@@ -29,6 +29,14 @@ using TurboJpeg = std::unique_ptr<void, DestroyTurboJpeg>;
 
 struct PngImage : png_image {
   PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
+  explicit PngImage(const Image& image) : PngImage() {
+    constexpr std::array<png_uint_32, 4> formats{PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB,
+                                                 PNG_FORMAT_RGBA};
+    WEFT_EXPECT(image.channels >= 1 && image.channels <= 4, "a PNG has 1 to 4 channels");
+    width = static_cast<png_uint_32>(image.width);
+    height = static_cast<png_uint_32>(image.height);
+    format = formats[static_cast<std::size_t>(image.channels - 1)];
+  }
   PngImage(const PngImage&) = delete;
   PngImage& operator=(const PngImage&) = delete;
   ~PngImage() { png_image_free(this); }
@@ -138,25 +146,26 @@ Result<std::vector<std::uint8_t>> encodeJpeg(const Image& image, int quality) {
   return bytes;
 }
 
-Result<void> writePng(const std::filesystem::path& path, const Image& image) {
-  WEFT_TRY(AtomicFile file, AtomicFile::create(path));
-  PngImage png;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  constexpr std::array<png_uint_32, 4> formats{PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB,
-                                               PNG_FORMAT_RGBA};
-  WEFT_EXPECT(image.channels >= 1 && image.channels <= 4, "a PNG has 1 to 4 channels");
-  png.format = formats[static_cast<std::size_t>(image.channels - 1)];
-  if (!png_image_write_to_file(&png, file.temporary().c_str(), 0, image.bytes.data(), 0, nullptr))
-    return fail(fmt::format("the PNG cannot be written: {}", png.message), path.string());
-  return file.commit();
+Result<std::vector<std::uint8_t>> encodePng(const Image& image) {
+  PngImage png(image);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::uint8_t> bytes(size);
+  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.bytes.data(), 0, nullptr))
+    return fail(fmt::format("PNG encoding failed: {}", png.message));
+  bytes.resize(size);
+  return bytes;
 }
 
-Result<void> writePng(const std::filesystem::path& path, const FloatImage& linear) {
+Result<void> writePng(const std::filesystem::path& path, const Image& image) {
+  WEFT_TRY(const std::vector<std::uint8_t> bytes, encodePng(image));
+  return writeWholeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Result<Image> displayImage(const FloatImage& linear) {
   std::array<int, 3> channels{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = linear.channelIndex(std::string(1, "RGB"[i]));
-    if (!index) return fail("the image has no channels R, G, B", path.string());
+    if (!index) return fail("the image has no channels R, G, B");
     channels[i] = *index;
   }
   Image image(linear.width(), linear.height(), 3);
@@ -167,6 +176,11 @@ Result<void> writePng(const std::filesystem::path& path, const FloatImage& linea
         const float shown = stored > 0.0f ? std::min(stored, 1.0f) : 0.0f;  // NaN is shown black
         image.pixel(x, y)[i] = static_cast<std::uint8_t>(std::lround(255.0f * shown));
       }
+  return image;
+}
+
+Result<void> writePng(const std::filesystem::path& path, const FloatImage& linear) {
+  WEFT_TRY(const Image image, displayImage(linear));
   return writePng(path, image);
 }
 

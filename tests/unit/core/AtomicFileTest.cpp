@@ -92,5 +92,13 @@ TEST(AtomicFileDeathTest, AnInterruptionRemovesAllAndAllowsNoMore) {
   EXPECT_EQ(filesIn(folder), 0u);
 }
 
+TEST(AtomicFile, WholeFilesReplaceWhatWasThere) {
+  const fs::path target = test::testFolder() / "out.txt";
+  write(target, "something longer");
+  requireDone(writeWholeFile(target, std::string_view("a\0b", 3)));
+  EXPECT_EQ(textOf(target), std::string("a\0b", 3));
+  EXPECT_FALSE(writeWholeFile(target / "below", "text"));
+}
+
 }  // namespace
 }  // namespace weft

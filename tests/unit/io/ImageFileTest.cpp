@@ -29,6 +29,7 @@ TEST(ImageFile, PngKeepsEveryByteOfOneToFourChannels) {
   for (int channels = 1; channels <= 4; ++channels) {
     requireDone(writePng(file, gradient(channels)));
     const Image image = valueOf(readImage(file));
+    EXPECT_EQ(valueOf(decodeImage(valueOf(encodePng(gradient(channels))), "png")).bytes, image.bytes);
     EXPECT_EQ(image.width, 7);
     EXPECT_EQ(image.height, 5);
     EXPECT_EQ(image.channels, channels);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "weft/core/Result.h"
 
@@ -34,5 +35,8 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty once committed or moved from
 };
+
+/// A whole file by way of an AtomicFile; fails where it cannot be written or the disk is full.
+Result<void> writeWholeFile(const std::filesystem::path& target, std::string_view contents);
 
 }  // namespace weft

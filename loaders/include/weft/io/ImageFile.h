@@ -31,10 +31,17 @@ Result<Image> readImage(const std::filesystem::path& path);
 /// Baseline JPEG without chroma subsampling, of an image with 3 channels.
 Result<std::vector<std::uint8_t>> encodeJpeg(const Image& image, int quality);
 
+/// A PNG in memory, 8-bit values as they are.
+Result<std::vector<std::uint8_t>> encodePng(const Image& image);
+
+/// The channels R, G, B of a linear image as they are displayed: clamped to 0..1 and encoded as sRGB.
+/// Fails where the image has no such channels.
+Result<Image> displayImage(const FloatImage& linear);
+
 /// Writes 8-bit values as they are; beside the place, then renamed.
 Result<void> writePng(const std::filesystem::path& path, const Image& image);
 
-/// Writes the channels R, G, B of a linear image, clamped to 0..1 and encoded as sRGB.
+/// Writes displayImage() of a linear image.
 Result<void> writePng(const std::filesystem::path& path, const FloatImage& linear);
 
 }  // namespace weft
