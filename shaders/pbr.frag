@@ -1,0 +1,147 @@
+// The metallic-roughness material of glTF 2.0 (appendix B) under point and directional lights; PBRMaterial.h has the formula.
+#version 450 core
+#include "lights.glsl"
+#include "tangent_frame.glsl"
+
+const float pi = 3.14159265358979;
+
+// Texture units, and where each texture lies.
+const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, unitCount = 4;
+
+struct Placement {
+  vec4 matrix;  // 2 x 2, columns
+  vec4 offset;  // xy; z: set of texture coordinates
+};
+
+layout(std140, binding = 2) uniform PBR {
+  vec4 baseColorFactor;  // linear
+  vec4 emissionFactor;   // rgb: linear; w: alpha below which ALPHA_MASK draws nothing
+  vec4 fresnel;          // of the dielectric: F0; w: F90
+  vec4 factors;          // metallic, roughness, scale of the normal texture
+  vec4 normalFrame;      // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent
+  Placement placements[unitCount];
+};
+
+layout(binding = baseColorUnit) uniform sampler2D baseColorTexture;
+layout(binding = metallicRoughnessUnit) uniform sampler2D metallicRoughnessTexture;
+layout(binding = normalUnit) uniform sampler2D normalTexture;
+layout(binding = emissionUnit) uniform sampler2D emissionTexture;
+
+in vec3 position;
+in vec3 normal;
+in vec3 tangent;
+in vec2 texcoord;
+in vec2 texcoord1;
+in vec4 vertexColor;
+flat in float handedness;
+
+layout(location = 0) out vec4 color;
+
+// What a surface is made of at one point.
+struct Surface {
+  vec3 base;
+  float metallic;
+  float alpha;  // of GGX
+};
+
+vec4 fetch(sampler2D image, int unit) {
+  Placement placement = placements[unit];
+  vec2 uv = placement.offset.z == 0.0 ? texcoord : texcoord1;
+  return texture(image, mat2(placement.matrix) * uv + placement.offset.xy);
+}
+
+vec4 baseColor() {
+  vec4 base = baseColorFactor * vertexColor;
+#ifdef BASE_COLOR_TEXTURE
+  base *= fetch(baseColorTexture, baseColorUnit);
+#endif
+  return base;
+}
+
+vec3 emission() {
+  vec3 radiance = emissionFactor.rgb;
+#ifdef EMISSION_TEXTURE
+  radiance *= fetch(emissionTexture, emissionUnit).rgb;
+#endif
+  return radiance;
+}
+
+Surface surfaceOf(vec3 base) {
+  float metallic = factors.x, roughness = factors.y;
+#ifdef METALLIC_ROUGHNESS_TEXTURE
+  vec4 texel = fetch(metallicRoughnessTexture, metallicRoughnessUnit);
+  metallic *= texel.b;
+  roughness *= texel.g;
+#endif
+  roughness = max(roughness, 0.045);
+  return Surface(base, metallic, roughness * roughness);
+}
+
+// Unit; on a back face the whole mapped normal turns.
+vec3 surfaceNormal() {
+  TangentFrame frame = tangentFrame(normal, tangent, handedness, false);
+  vec3 n = frame.n;
+#ifdef NORMAL_TEXTURE
+  vec3 mapped = 2.0 * fetch(normalTexture, normalUnit).xyz - 1.0;
+  mapped.xy = mat2(normalFrame) * (factors.z * mapped.xy);
+  n = mapped.x * frame.t + mapped.y * frame.b + mapped.z * frame.n;
+  n *= inversesqrt(max(dot(n, n), 1e-12));
+#endif
+  return gl_FrontFacing ? n : -n;
+}
+
+// D V of GGX with Smith's height-correlated shadowing, per steradian. 1 - (n.h)^2 comes from a cross product because it
+// cancels out at the peak of smooth surfaces.
+float microfacets(float alpha, vec3 n, vec3 h, float nl, float nv) {
+  float squared = alpha * alpha;
+  vec3 across = cross(n, h);
+  float nh = dot(n, h);
+  if (nh <= 0.0) return 0.0;
+  float width = dot(across, across) + squared * nh * nh;
+  float shadowing = nl * sqrt(nv * nv * (1.0 - squared) + squared) + nv * sqrt(nl * nl * (1.0 - squared) + squared);
+  return squared / (pi * width * width) * 0.5 / shadowing;
+}
+
+// Unit vectors; nl > 0. Per steradian.
+vec3 reflectance(Surface surface, vec3 n, vec3 v, vec3 l, float nl) {
+  vec3 h = l + v;
+  h *= inversesqrt(max(dot(h, h), 1e-12));
+  float nv = max(abs(dot(n, v)), 1e-4);  // a normal texture may look away
+  float specular = microfacets(surface.alpha, n, h, nl, nv);
+  float weight = pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
+  vec3 reflected = mix(fresnel.rgb, vec3(fresnel.w), weight);
+  float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
+  vec3 dielectric = entering * surface.base / pi + reflected * specular;
+  vec3 metal = mix(surface.base, vec3(1.0), weight) * specular;
+  return mix(dielectric, metal, surface.metallic);
+}
+
+vec3 lit(vec3 base) {
+  Surface surface = surfaceOf(base);
+  vec3 n = surfaceNormal(), v = normalize(eye.xyz - position);
+  vec3 radiance = vec3(0.0);
+  for (int i = 0; i < lightCount.x; ++i) {
+    vec3 l;
+    vec3 irradiance = lightAt(i, position, l);
+    float nl = dot(n, l);
+    if (nl > 0.0) radiance += irradiance * nl * reflectance(surface, n, v, l, nl);
+  }
+  return radiance;
+}
+
+void main() {
+  vec4 base = baseColor();
+#ifdef ALPHA_MASK
+  if (base.a < emissionFactor.w) discard;
+#endif
+#ifdef UNLIT
+  color.rgb = base.rgb + emission();
+#else
+  color.rgb = lit(base.rgb) + emission();
+#endif
+#ifdef ALPHA_BLEND
+  color.a = base.a;
+#else
+  color.a = 1.0;
+#endif
+}
