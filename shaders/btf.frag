@@ -2,11 +2,9 @@
 #version 450 core
 #include "lights.glsl"
 #include "tangent_frame.glsl"
+#include "layer_lookup.glsl"
+#include "field_numbers.glsl"
 #include "model.glsl"
-#include "view_lookup.glsl"
-
-layout(binding = 0) uniform sampler2DArray viewParameters;
-layout(binding = 1) uniform sampler2D sharedParameters;
 
 layout(std140, binding = 2) uniform ReflectanceField {
   vec2 textureScale;   // repetitions per unit of texture coordinates
@@ -21,45 +19,84 @@ flat in float handedness;
 
 layout(location = 0) out vec4 color;
 
-// The value, n.l included, for light from `l` above the horizon (ReflectanceField.h: evaluateWithCosine).
-vec3 evaluateWithCosine(vec4 shared_, ViewParameters view, vec3 l) {
+struct Texel {
+  SharedNumbers channels[COLOR_CHANNELS];
+};
+
+struct Layer {
+  LayerNumbers channels[COLOR_CHANNELS];
+};
+
+Texel fetchTexel(ivec2 place) {
+  Texel texel;
+  for (int c = 0; c < COLOR_CHANNELS; ++c) texel.channels[c] = fetchShared(place, c);
+  return texel;
+}
+
+Layer fetchLayer(ivec2 place, int index) {
+  Layer layer;
+  for (int c = 0; c < COLOR_CHANNELS; ++c) layer.channels[c] = fetchLayer(place, index, c);
+  return layer;
+}
+
+// Linear RGB, with or without n.l as it was fitted.
+vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
+  vec3 value;
+  for (int c = 0; c < COLOR_CHANNELS; ++c) value[c] = evaluateModel(texel.channels[c], layer.channels[c], light, view);
+  if (COLOR_CHANNELS == 1) value = value.xxx;
+  return DECODE(value * texel.channels[0].texels[0].rgb);
+}
+
+// The value, n.l included, for light from `light` above the horizon (FieldFormula.h: evaluate).
+vec3 valueWithCosine(Texel texel, Layer layer, vec3 light, vec3 view) {
 #ifdef MODEL_HAS_COSINE
-  if (l.z < lowestLightZ) {
+  if (light.z < lowestLightZ) {
     // 0 where rounding lets the pole lie below a ring at the pole.
-    vec2 azimuth = l.xy * inversesqrt(max(dot(l.xy, l.xy), 1e-30));
+    vec2 azimuth = light.xy * inversesqrt(max(dot(light.xy, light.xy), 1e-30));
     vec3 onRing = vec3(azimuth * sqrt(1.0 - lowestLightZ * lowestLightZ), lowestLightZ);
-    return l.z / lowestLightZ * evaluateModel(shared_, view, onRing);
+    return light.z / lowestLightZ * modelValue(texel, layer, onRing, view);
   }
-  return evaluateModel(shared_, view, l);
+  return modelValue(texel, layer, light, view);
 #else
-  return l.z * evaluateModel(shared_, view, l);
+  return light.z * modelValue(texel, layer, light, view);
 #endif
 }
 
 // The radiance towards the eye that one texel would give here.
-vec3 radianceOf(ivec2 texel, ViewWeights views, TangentFrame frame) {
-  vec4 shared_ = texelFetch(sharedParameters, texel, 0);
+vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
+  Texel texel = fetchTexel(place);
   vec3 radiance = vec3(0.0);
+#ifdef LAYERS_ARE_LIGHTS
+  for (int i = 0; i < lightCount.x; ++i) {
+    vec3 toLight;
+    vec3 irradiance = lightAt(i, position, toLight);
+    vec3 l = toFrame(frame, toLight);
+    if (l.z <= 0.0) continue;
+    LayerWeights layers = findLayers(l);
+    for (int k = 0; k < 3; ++k)
+      if (layers.weight[k] > 0.0)
+        radiance += layers.weight[k] * irradiance * valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, view);
+  }
+#else
+  LayerWeights layers = findLayers(view);
   for (int k = 0; k < 3; ++k) {
-    if (views.weight[k] == 0.0) continue;
-    ViewParameters view = fetchView(viewParameters, texel, views.view[k]);
+    if (layers.weight[k] == 0.0) continue;
+    Layer layer = fetchLayer(place, layers.index[k]);
     for (int i = 0; i < lightCount.x; ++i) {
       vec3 toLight;
       vec3 irradiance = lightAt(i, position, toLight);
       vec3 l = toFrame(frame, toLight);
-      if (l.z > 0.0) radiance += views.weight[k] * irradiance * evaluateWithCosine(shared_, view, l);
+      if (l.z > 0.0) radiance += layers.weight[k] * irradiance * valueWithCosine(texel, layer, l, view);
     }
   }
+#endif
   return radiance / 3.14159265358979;
 }
 
 void main() {
   TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
-  ViewWeights views = findViews(toFrame(frame, normalize(eye.xyz - position)));
-#ifdef NEAREST_VIEW
-  views = nearestView(views);
-#endif
-  ivec2 size = textureSize(sharedParameters, 0);
+  vec3 view = toFrame(frame, normalize(eye.xyz - position));
+  ivec2 size = textureSize(sharedNumbers, 0).xy;
   vec2 place = fract(texcoord * textureScale) * vec2(size);
 #ifdef BILINEAR
   // Lobes cannot be mixed, what they give can.
@@ -69,11 +106,11 @@ void main() {
   for (int corner = 0; corner < 4; ++corner) {
     ivec2 offset = ivec2(corner & 1, corner >> 1);
     vec2 weight = mix(1.0 - share, share, vec2(offset));
-    radiance += weight.x * weight.y * radianceOf((ivec2(low) + offset + size) % size, views, frame);
+    radiance += weight.x * weight.y * radianceOf((ivec2(low) + offset + size) % size, view, frame);
   }
 #else
   // fract() of a tiny negative number rounds to 1.
-  vec3 radiance = radianceOf(min(ivec2(place), size - 1), views, frame);
+  vec3 radiance = radianceOf(min(ivec2(place), size - 1), view, frame);
 #endif
   color = vec4(radiance, 1.0);
 }

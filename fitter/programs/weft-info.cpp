@@ -28,17 +28,17 @@ Json describe(const weft::ReflectanceField& field) {
   const weft::ModelDescription model = field.model().description();
   Json modelJson = {{"name", model.name},
                     {"shared_channels", field.shared().channels()},
-                    {"view_channels", field.views().channels()}};
+                    {"layer_channels", field.layers().channels()}};
   if (model.lobes > 0) modelJson["lobes"] = model.lobes;
   return {{"kind", "reflectance field"},
           {"name", description.source},
           {"width", field.width()},
           {"height", field.height()},
-          {"views", field.viewCount()},
+          {"views", field.description().views.size()},
           {"lights", description.lights.size()},
           {"encoding", weft::name(weft::Encoding::Linear)},
           {"has_cosine", description.hasCosine},
-          {"precision", field.views().precision() == weft::Precision::Half ? "half" : "float"},
+          {"precision", field.shared().precision() == weft::Precision::Half ? "half" : "float"},
           {"model", modelJson},
           {"fit", description.fitReport.empty() ? Json() : Json::parse(description.fitReport)}};
 }

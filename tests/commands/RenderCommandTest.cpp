@@ -59,7 +59,7 @@ void writeConstantField(const std::filesystem::path& path, glm::vec3 color) {
   const auto model = test::valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
   FloatImage shared(1, 1, model->sharedChannels());
   for (int channel = 0; channel < 3; ++channel) shared.at(0, 0, channel) = color[channel];
-  FloatImage views(1, 1, model->viewChannels(), 1);
+  FloatImage views(1, 1, model->layerChannels(), 1);
   views.at(0, 0, 5) = 1.0f;
   ReflectanceFieldDescription description;
   description.views = description.lights = {{0, 0, 1}};

@@ -51,7 +51,7 @@ fs::path fieldFile() {
   about.source = "GREY";
   about.fitReport = R"({"epsilon":{"linear":{"luminance":{"avg":0.0301}}}})";
   FloatImage shared(5, 7, model->sharedChannels());
-  FloatImage views(5, 7, model->viewChannels(), 3);
+  FloatImage views(5, 7, model->layerChannels(), 3);
   shared.roundToHalf();
   views.roundToHalf();
   requireDone(writeReflectanceField(valueOf(ReflectanceField::create(model, about, shared, views)), file));

@@ -12,7 +12,7 @@
 #include "weft/fitter/Fitter.h"
 #include "weft/io/ExrFile.h"
 #include "weft/materials/LambertMaterial.h"
-#include "weft/reflectance/ViewLookup.h"
+#include "weft/reflectance/LayerLookup.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Transform.h"
 
@@ -72,7 +72,19 @@ glm::vec3 pixelPosition(int x, int y) {
           1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, 0.0f};
 }
 
-// What the CPU says of the same picture. `weights` finds the views of a direction.
+// The layers that the shader finds for a light and a view.
+auto layersOnTheGpu(const ReflectanceField& field) {
+  const HemisphereTriangulation& triangulation = field.formula().triangulation();
+  const bool hasLayers = field.formula().layerCount() > 0;
+  return [&field, &triangulation, hasLayers,
+          lookup = hasLayers ? LayerLookup::create(triangulation) : LayerLookup()](glm::vec3 light,
+                                                                                   glm::vec3 view) {
+    const bool ofViews = field.model().layerDirections() == LayerDirections::Views;
+    return hasLayers ? lookup.locate(triangulation, ofViews ? view : light) : DirectionWeights();
+  };
+}
+
+// What the CPU says of the same picture. `weights` finds the layers of a light and a view.
 template <class Weights>
 FloatImage referencePicture(const ReflectanceField& field, const Frame& frame, glm::vec3 towardsLight,
                             const Weights& weights) {
@@ -81,8 +93,8 @@ FloatImage referencePicture(const ReflectanceField& field, const Frame& frame, g
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
       const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
-      const glm::vec3 value =
-          field.evaluate(x * field.width() / kSize, y * field.height() / kSize, weights(view), light);
+      const glm::vec3 value = field.evaluate(x * field.width() / kSize, y * field.height() / kSize,
+                                             weights(light, view), light, view);
       for (int c = 0; c < 3; ++c) picture.at(x, y, c) = value[c];
       picture.at(x, y, 3) = 1.0f;
     }
@@ -127,15 +139,13 @@ TEST_P(GpuAgainstCpu, AgreeOnTheFittedWool) {
   options.crop = Crop{20, 20, 8, 8};
   auto fit = valueOf(fitReflectanceField(*valueOf(openBtf(file)), options));
   const auto field = std::make_shared<const ReflectanceField>(std::move(fit.field));
-  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const auto layers = layersOnTheGpu(*field);
 
   std::mt19937 random(2004);
   for (int pair = 0; pair < 20; ++pair) {
     const Frame frame = frameSeenFrom(randomDirection(random, 0.02f));
     const glm::vec3 towardsLight = frame.axes * randomDirection(random, 0.0f);
-    const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
-      return lookup.locate(field->triangulation(), view);
-    });
+    const FloatImage expected = referencePicture(*field, frame, towardsLight, layers);
     expectEqualPictures(render({}, field, frame, towardsLight), expected, 5e-4f);
   }
 }
@@ -166,33 +176,32 @@ std::shared_ptr<const ReflectanceField> unevenField(bool cosineInModel = false) 
 
 TEST_F(BTFMaterialTest, NearestViewIsTheOneOfTheLargestWeight) {
   const auto field = unevenField();
-  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.3f, 0.4f, 0.7f)));
   const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(-0.5f, 0.2f, 0.6f));
-  const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
-    const int nearest = lookup.locate(field->triangulation(), view).nearest();
-    return DirectionWeights{{nearest, nearest, nearest}, {1.0f, 0.0f, 0.0f}};
-  });
+  const FloatImage expected =
+      referencePicture(*field, frame, towardsLight, [&](glm::vec3 light, glm::vec3 view) {
+        const int nearest = layers(light, view).nearest();
+        return DirectionWeights{{nearest, nearest, nearest}, {1.0f, 0.0f, 0.0f}};
+      });
   // Pixels on the border between two views may fall to either.
   expectEqualPictures(render({.interpolatedViews = 1}, field, frame, towardsLight), expected, 5e-4f, 0.002);
 }
 
 TEST_F(BTFMaterialTest, AFieldThatContainsTheCosineFadesBelowTheMeasuredLights) {
   const auto field = unevenField(true);
-  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(-0.2f, 0.1f, 0.9f)));
   for (double theta : {70.0, 80.0, 88.0, 95.0}) {
     const glm::vec3 towardsLight = frame.axes * directionFromDegrees(theta, 200);
-    const FloatImage expected = referencePicture(*field, frame, towardsLight, [&](glm::vec3 view) {
-      return lookup.locate(field->triangulation(), view);
-    });
+    const FloatImage expected = referencePicture(*field, frame, towardsLight, layers);
     expectEqualPictures(render({}, field, frame, towardsLight), expected, 5e-4f);
   }
 }
 
 TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
   const auto field = unevenField();
-  const ViewLookup lookup = ViewLookup::create(field->triangulation());
+  const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.2f, -0.3f, 0.8f)));
   const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(0.4f, 0.3f, 0.5f));
   const glm::vec3 light = frame.toFrame(towardsLight);
@@ -200,7 +209,7 @@ TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
       const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
-      const DirectionWeights weights = lookup.locate(field->triangulation(), view);
+      const DirectionWeights weights = layers(light, view);
       const glm::vec2 place = glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) * 8.0f /
                                   static_cast<float>(kSize) -
                               0.5f;
@@ -211,7 +220,7 @@ TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
           const float weight = (1.0f - std::abs(place.x - low.x - static_cast<float>(dx))) *
                                (1.0f - std::abs(place.y - low.y - static_cast<float>(dy)));
           value += weight * field->evaluate((static_cast<int>(low.x) + dx + 8) % 8,
-                                            (static_cast<int>(low.y) + dy + 8) % 8, weights, light);
+                                            (static_cast<int>(low.y) + dy + 8) % 8, weights, light, view);
         }
       for (int c = 0; c < 3; ++c) expected.at(x, y, c) = value[c];
       expected.at(x, y, 3) = 1.0f;

@@ -17,7 +17,7 @@ inline ReflectanceField testField() {
   for (int texel = 0; texel < 4; ++texel)
     for (int channel = 0; channel < 3; ++channel)
       shared.at(texel % 2, texel / 2, channel) = colors[texel][channel];
-  FloatImage views(2, 2, model->viewChannels(), 1);
+  FloatImage views(2, 2, model->layerChannels(), 1);
   for (int texel = 0; texel < 4; ++texel) {
     views.at(texel % 2, texel / 2, 3) = 0.5f;
     views.at(texel % 2, texel / 2, 4) = 0.25f;

@@ -37,8 +37,7 @@ struct FitJob {
   const BtfDescription& source;
   const FitOptions& options;
   const TexelFitter& fitter;
-  const ReflectanceModel& model;
-  float lowestLightZ;
+  const FieldFormula& formula;
   FloatImage& shared;
   FloatImage& views;
 
@@ -65,7 +64,7 @@ void FitJob::fitTexel(std::span<glm::vec3> samples, int x, int y, TexelErrors& e
 
   const std::size_t channels = views.channels().size();
   std::vector<float> viewParameters(source.views.size() * channels);
-  fitter.fit(luminances, sharedTexel, viewParameters);
+  fitter.fit(luminances, displayWeights(luminances), sharedTexel.subspan(3), viewParameters);
   for (std::size_t view = 0; view < source.views.size(); ++view)
     std::copy_n(viewParameters.begin() + static_cast<std::ptrdiff_t>(view * channels), channels,
                 views.texel(x, y, static_cast<int>(view)).begin());
@@ -81,9 +80,8 @@ void FitJob::measure(std::span<const glm::vec3> samples, int x, int y, TexelErro
   const float grazingZ = std::cos(glm::radians(59.9f));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t view = i / source.lights.size();
-    const glm::vec3 value = evaluateWithCosine(model, options.cosineInModel, lowestLightZ, shared.texel(x, y),
-                                               views.texel(x, y, static_cast<int>(view)),
-                                               source.lights[i % source.lights.size()]);
+    const glm::vec3 value = formula.evaluate(shared.texel(x, y), views.texel(x, y, static_cast<int>(view)),
+                                             source.lights[i % source.lights.size()], source.views[view]);
     errors.add(samples[i], value, source.encoding, source.views[view].z < grazingZ);
   }
 }
@@ -142,8 +140,11 @@ Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions&
            FitterRegistry::builtin().create({measured.views, measured.lights, options.cosineInModel, model}));
 
   FloatImage shared(crop.width, crop.height, model->sharedChannels());
-  FloatImage views(crop.width, crop.height, model->viewChannels(), static_cast<int>(measured.views.size()));
-  const FitJob job{measured, options, *fitter, *model, lowestZ(measured.lights), shared, views};
+  FloatImage views(crop.width, crop.height, model->layerChannels(), static_cast<int>(measured.views.size()));
+  ReflectanceFieldDescription description{measured.views,   measured.lights, options.cosineInModel,
+                                          Encoding::Linear, measured.name,   {}};
+  WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
+  const FitJob job{measured, options, *fitter, formula, shared, views};
   const std::size_t pairs = measured.views.size() * measured.lights.size();
   std::vector<TexelErrors> errors(static_cast<std::size_t>(crop.width) *
                                   static_cast<std::size_t>(crop.height));
@@ -182,8 +183,7 @@ Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions&
   }
 
   const FitErrors summary = summarize(errors);
-  ReflectanceFieldDescription description{measured.views, measured.lights, options.cosineInModel,
-                                          measured.name, toJson(summary)};
+  description.fitReport = toJson(summary);
   WEFT_TRY(ReflectanceField field,
            ReflectanceField::create(model, std::move(description), std::move(shared), std::move(views)));
   return FitResult{std::move(field), summary, secondsReading, secondsFitting};

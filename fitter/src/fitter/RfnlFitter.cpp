@@ -10,7 +10,6 @@
 #include <limits>
 #include <numeric>
 
-#include "FitWeights.h"
 #include "weft/core/Direction.h"
 
 namespace weft {
@@ -100,15 +99,15 @@ std::vector<std::size_t> peaksOf(const std::vector<float>& reflectance,
 class TexelFit {
  public:
   TexelFit(const LobeProblem& problem, const std::vector<std::vector<int>>& neighbors, int lobes,
-           std::span<const float> luminance)
+           std::span<const float> targets, std::span<const float> weights)
       : problem_(problem),
         neighbors_(neighbors),
         lobes_(lobes),
         lights_(problem.lights.size()),
-        views_(luminance.size() / lights_),
+        views_(targets.size() / lights_),
         stride_(static_cast<std::size_t>(4 * lobes + 1)),
-        luminance_(luminance),
-        weights_(displayWeights(luminance)),
+        targets_(targets),
+        weights_(weights),
         parameters_(views_ * stride_),
         costs_(views_, std::numeric_limits<float>::infinity()),
         diffuseSlopes_(views_) {}
@@ -147,7 +146,7 @@ class TexelFit {
   // Amplitude, parabolic direction and exponent of every lobe.
   void write(std::size_t view, bool modelHasCosine, std::span<float> channels) const {
     std::vector<Lobe> lobes = lobesOf(view);
-    limitBrightness(lobes, diffuse(view), std::ranges::max(luminance_.subspan(view * lights_, lights_)),
+    limitBrightness(lobes, diffuse(view), std::ranges::max(targets_.subspan(view * lights_, lights_)),
                     modelHasCosine);
     for (std::size_t j = 0; j < lobes.size(); ++j)
       std::ranges::copy(std::array{lobes[j].amplitude, lobes[j].p.x, lobes[j].p.y, lobes[j].exponent},
@@ -167,7 +166,7 @@ class TexelFit {
                     std::vector<float>& peaksAlone) const {
     std::vector<float> reflectance(lights_);
     for (std::size_t i = 0; i < lights_; ++i)
-      reflectance[i] = luminance_[view * lights_ + i] / std::max(problem_.cosines[i], 0.2f);
+      reflectance[i] = targets_[view * lights_ + i] / std::max(problem_.cosines[i], 0.2f);
     std::vector<float> ordered = reflectance;
     const auto quantile = [&](std::size_t rank) {
       std::ranges::nth_element(ordered, ordered.begin() + static_cast<std::ptrdiff_t>(rank));
@@ -200,7 +199,7 @@ class TexelFit {
   std::vector<LobeJob> jobsAt(std::vector<float>& parameters) const {
     std::vector<LobeJob> jobs(views_);
     for (std::size_t v = 0; v < views_; ++v)
-      jobs[v] = {&luminance_[v * lights_], &weights_[v * lights_], &parameters[v * stride_]};
+      jobs[v] = {&targets_[v * lights_], &weights_[v * lights_], &parameters[v * stride_]};
     return jobs;
   }
 
@@ -244,8 +243,8 @@ class TexelFit {
   std::size_t lights_;
   std::size_t views_;
   std::size_t stride_;  // numbers a view
-  std::span<const float> luminance_;
-  std::vector<float> weights_;
+  std::span<const float> targets_;
+  std::span<const float> weights_;
   std::vector<float> parameters_;  // [view][LobeJob::parameters]
   std::vector<float> costs_;
   std::vector<float> diffuseSlopes_;
@@ -280,19 +279,19 @@ RfnlFitter::RfnlFitter(const FitProblem& problem)
       std::clamp(std::log(0.5f) / std::log(std::cos(0.5f * largestGap)), 2.0f, 1000.0f);
 }
 
-void RfnlFitter::fit(std::span<const float> luminance, std::span<float> shared,
-                     std::span<float> views) const {
-  TexelFit texel(problem_, neighbors_, lobes_, luminance);
+void RfnlFitter::fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
+                     std::span<float> layers) const {
+  TexelFit texel(problem_, neighbors_, lobes_, targets, weights);
   texel.fitViews();
   if (!ownDiffuseAlbedo_) texel.shareDiffuse();
-  const std::size_t viewCount = luminance.size() / problem_.lights.size();
-  const std::size_t channels = views.size() / viewCount;
+  const std::size_t viewCount = targets.size() / problem_.lights.size();
+  const std::size_t numbers = layers.size() / viewCount;
   for (std::size_t v = 0; v < viewCount; ++v) {
-    const std::span<float> view = views.subspan(v * channels, channels);
-    texel.write(v, modelHasCosine_, view);
-    if (ownDiffuseAlbedo_) view.back() = texel.diffuse(v);
+    const std::span<float> layer = layers.subspan(v * numbers, numbers);
+    texel.write(v, modelHasCosine_, layer);
+    if (ownDiffuseAlbedo_) layer.back() = texel.diffuse(v);
   }
-  if (!ownDiffuseAlbedo_) shared[3] = texel.diffuse(0);
+  if (!ownDiffuseAlbedo_) shared[0] = texel.diffuse(0);
 }
 
 }  // namespace weft

@@ -12,7 +12,8 @@ class RfnlFitter : public TexelFitter {
   /// Fails where there are fewer lights than parameters of a view.
   static Result<std::unique_ptr<TexelFitter>> create(const FitProblem& problem);
 
-  void fit(std::span<const float> luminance, std::span<float> shared, std::span<float> views) const override;
+  void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
+           std::span<float> layers) const override;
 
  private:
   explicit RfnlFitter(const FitProblem& problem);

@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
-#include "FitWeights.h"
-
 namespace weft {
 
 Result<std::unique_ptr<TexelFitter>> RfpFitter::create(const FitProblem& problem) {
@@ -22,22 +20,21 @@ Result<std::unique_ptr<TexelFitter>> RfpFitter::create(const FitProblem& problem
   return std::unique_ptr<TexelFitter>(new RfpFitter(std::move(basis)));
 }
 
-void RfpFitter::fit(std::span<const float> luminance, std::span<float>, std::span<float> views) const {
+void RfpFitter::fit(std::span<const float> targets, std::span<const float> weights, std::span<float>,
+                    std::span<float> layers) const {
   const auto lights = static_cast<std::size_t>(basis_.rows());
-  for (std::size_t view = 0; view * lights < luminance.size(); ++view) {
-    const std::span<const float> samples = luminance.subspan(view * lights, lights);
-    const std::vector<float> weights = displayWeights(samples);
+  for (std::size_t view = 0; view * lights < targets.size(); ++view) {
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
     for (std::size_t i = 0; i < lights; ++i) {
       const auto row = basis_.row(static_cast<Eigen::Index>(i));
-      const double squared = double{weights[i]} * weights[i];
+      const double squared = double{weights[view * lights + i]} * weights[view * lights + i];
       normal.noalias() += squared * row.transpose() * row;
-      right += squared * samples[i] * row.transpose();
+      right += squared * targets[view * lights + i] * row.transpose();
     }
     const Eigen::Matrix<double, 6, 1> coefficients = normal.ldlt().solve(right);
     for (std::size_t k = 0; k < 6; ++k)
-      views[view * 6 + k] = static_cast<float>(coefficients(static_cast<Eigen::Index>(k)));
+      layers[view * 6 + k] = static_cast<float>(coefficients(static_cast<Eigen::Index>(k)));
   }
 }
 

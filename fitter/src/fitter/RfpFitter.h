@@ -12,7 +12,8 @@ class RfpFitter : public TexelFitter {
   /// Fails where the lights do not determine the six coefficients: fewer than six, or on one conic.
   static Result<std::unique_ptr<TexelFitter>> create(const FitProblem& problem);
 
-  void fit(std::span<const float> luminance, std::span<float> shared, std::span<float> views) const override;
+  void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
+           std::span<float> layers) const override;
 
  private:
   using Basis = Eigen::Matrix<double, Eigen::Dynamic, 6>;

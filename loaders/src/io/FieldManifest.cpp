@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "weft reflectance field";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr const char* kColorSpace = "linear Rec. 709";
 constexpr int kDeepestNesting = 32;  // JSON is destroyed and printed recursively
 constexpr std::size_t kMostDirections = 65536;
@@ -23,6 +23,16 @@ Result<DiffuseAlbedo> diffuseAlbedoFromName(const std::string& text) {
   for (DiffuseAlbedo albedo : {DiffuseAlbedo::Shared, DiffuseAlbedo::PerView})
     if (text == name(albedo)) return albedo;
   return fail(fmt::format("the manifest has an unknown diffuse_albedo '{}'", text));
+}
+
+const char* name(FitColor color) {
+  return color == FitColor::Luminance ? "luminance" : "rgb";
+}
+
+Result<FitColor> fitColorFromName(const std::string& text) {
+  for (FitColor color : {FitColor::Luminance, FitColor::Rgb})
+    if (text == name(color)) return color;
+  return fail(fmt::format("the manifest has an unknown color '{}'", text));
 }
 
 // Throws on bad JSON.
@@ -68,6 +78,8 @@ Result<FieldManifest> manifestFrom(const Json& json) {
   manifest.model.lobes = model.at("lobes").get<int>();
   WEFT_TRY(manifest.model.diffuseAlbedo,
            diffuseAlbedoFromName(model.at("diffuse_albedo").get<std::string>()));
+  WEFT_TRY(manifest.model.color, fitColorFromName(model.at("color").get<std::string>()));
+  WEFT_TRY(manifest.field.encoding, encodingFromName(json.at("encoding").get<std::string>()));
   manifest.field.views = directionsFrom(json.at("views"));
   manifest.field.lights = directionsFrom(json.at("lights"));
   manifest.field.hasCosine = json.at("has_cosine").get<bool>();
@@ -81,17 +93,20 @@ Result<FieldManifest> manifestFrom(const Json& json) {
 Result<std::string> FieldManifest::text() const {
   try {
     const Json fit = field.fitReport.empty() ? Json() : parseJson(field.fitReport);
-    const Json json = {
-        {"format", kFormat},
-        {"version", kVersion},
-        {"model",
-         {{"name", model.name}, {"lobes", model.lobes}, {"diffuse_albedo", name(model.diffuseAlbedo)}}},
-        {"color_space", kColorSpace},
-        {"has_cosine", field.hasCosine},
-        {"source", field.source},
-        {"fit", fit},
-        {"views", toJson(field.views)},
-        {"lights", toJson(field.lights)}};
+    const Json json = {{"format", kFormat},
+                       {"version", kVersion},
+                       {"model",
+                        {{"name", model.name},
+                         {"lobes", model.lobes},
+                         {"diffuse_albedo", name(model.diffuseAlbedo)},
+                         {"color", name(model.color)}}},
+                       {"color_space", kColorSpace},
+                       {"encoding", name(field.encoding)},
+                       {"has_cosine", field.hasCosine},
+                       {"source", field.source},
+                       {"fit", fit},
+                       {"views", toJson(field.views)},
+                       {"lights", toJson(field.lights)}};
     return json.dump();
   } catch (const std::exception& error) {
     return fail(std::string("the fit report is not JSON: ") + error.what());

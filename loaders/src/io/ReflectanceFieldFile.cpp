@@ -21,8 +21,9 @@ namespace {
 constexpr const char* kManifestAttribute = "weftReflectanceField";
 constexpr const char* kSharedPart = "shared";
 
-std::string viewPart(int view) {
-  return fmt::format("view{:03}", view);
+// The part of a layer, which is a view's or a light's.
+std::string layerPart(const ReflectanceModel& model, int layer) {
+  return fmt::format("{}{:03}", model.layerDirections() == LayerDirections::Lights ? "light" : "view", layer);
 }
 
 Imf::Header partHeader(const FloatImage& image, const std::string& name) {
@@ -35,18 +36,19 @@ Imf::Header partHeader(const FloatImage& image, const std::string& name) {
 void writeParts(const ReflectanceField& field, const std::string& manifest, const std::string& path) {
   std::vector<Imf::Header> headers{partHeader(field.shared(), kSharedPart)};
   headers[0].insert(kManifestAttribute, Imf::StringAttribute(manifest));
-  for (int view = 0; view < field.viewCount(); ++view)
-    headers.push_back(partHeader(field.views(), viewPart(view)));
+  const FloatImage& layers = field.layers();
+  for (int layer = 0; layer < layers.layers(); ++layer)
+    headers.push_back(partHeader(layers, layerPart(field.model(), layer)));
   Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()), false, 0);
   Imf::OutputPart shared(file, 0);
   writeExrPart(shared, field.shared(), 0);
-  for (int view = 0; view < field.viewCount(); ++view) {
-    Imf::OutputPart part(file, view + 1);
-    writeExrPart(part, field.views(), view);
+  for (int layer = 0; layer < layers.layers(); ++layer) {
+    Imf::OutputPart part(file, layer + 1);
+    writeExrPart(part, layers, layer);
   }
 }
 
-// Every part but the first must be as large as it and hold the model's view channels; channels in a file are
+// Every part but the first must be as large as it and hold the model's layer channels; channels in a file are
 // in alphabetical order.
 Result<ExrPartShape> checkPart(const Imf::MultiPartInputFile& file, int part, const std::string& name,
                                std::vector<std::string> channels, const std::string& where) {
@@ -64,38 +66,51 @@ struct FieldShape {
   int width = 0;
   int height = 0;
   Precision shared = Precision::Half;
-  Precision views = Precision::Half;
+  Precision layers = Precision::Half;
 };
 
 Result<FieldShape> checkParts(const Imf::MultiPartInputFile& file, const ReflectanceModel& model,
-                              std::size_t views, std::uint64_t fileBytes, const std::string& where) {
-  if (static_cast<std::size_t>(file.parts()) != views + 1)
-    return fail(fmt::format("the manifest describes {} views, the file has {}", views, file.parts() - 1),
+                              std::size_t layers, std::uint64_t fileBytes, const std::string& where) {
+  if (static_cast<std::size_t>(file.parts()) != layers + 1)
+    return fail(fmt::format("the manifest describes {} layers, the file has {}", layers, file.parts() - 1),
                 where);
   WEFT_TRY(const ExrPartShape shared, checkPart(file, 0, kSharedPart, model.sharedChannels(), where));
   FieldShape shape{shared.width, shared.height, shared.precision, Precision::Half};
-  for (int view = 0; view < static_cast<int>(views); ++view) {
-    WEFT_TRY(const ExrPartShape part, checkPart(file, view + 1, viewPart(view), model.viewChannels(), where));
+  for (int layer = 0; layer < static_cast<int>(layers); ++layer) {
+    const std::string name = layerPart(model, layer);
+    WEFT_TRY(const ExrPartShape part, checkPart(file, layer + 1, name, model.layerChannels(), where));
     if (part.width != shape.width || part.height != shape.height)
-      return fail(fmt::format("part '{}' differs in size", viewPart(view)), where);
-    if (part.precision == Precision::Float) shape.views = Precision::Float;
+      return fail(fmt::format("part '{}' differs in size", name), where);
+    if (part.precision == Precision::Float) shape.layers = Precision::Float;
   }
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(shape.width) * static_cast<std::uint64_t>(shape.height);
-  const std::uint64_t channels = model.sharedChannels().size() + views * model.viewChannels().size();
+  const std::uint64_t channels = model.sharedChannels().size() + layers * model.layerChannels().size();
   WEFT_TRY_VOID(checkExrMemory(pixels * channels, fileBytes, where));
   return shape;
 }
 
+std::size_t layerCount(const ReflectanceModel& model, const ReflectanceFieldDescription& field) {
+  switch (model.layerDirections()) {
+    case LayerDirections::None:
+      return 0;
+    case LayerDirections::Views:
+      return field.views.size();
+    case LayerDirections::Lights:
+      return field.lights.size();
+  }
+  return 0;
+}
+
 // OpenEXR locks a file while it unpacks a part of it, so every thread opens its own.
-Result<void> readParts(const std::string& path, FloatImage& shared, FloatImage& views) {
+Result<void> readParts(const std::string& path, FloatImage& shared, FloatImage& layers) {
   tbb::enumerable_thread_specific<std::unique_ptr<Imf::MultiPartInputFile>> files;
-  return parallelTry(views.layers() + 1, [&](int index) -> Result<void> {
+  return parallelTry(layers.layers() + 1, [&](int index) -> Result<void> {
     try {
       std::unique_ptr<Imf::MultiPartInputFile>& file = files.local();
       if (!file) file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), 0);
       Imf::InputPart part(*file, index);
-      readExrPart(part, index == 0 ? shared : views, std::max(index - 1, 0));
+      readExrPart(part, index == 0 ? shared : layers, std::max(index - 1, 0));
       return {};
     } catch (const std::exception& error) {
       return fail(fmt::format("part {} is damaged: {}", index, error.what()), path);
@@ -138,16 +153,19 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
     if (!manifest) return tl::unexpected<Error>(inFile(manifest.error(), where));
     Result<std::shared_ptr<const ReflectanceModel>> model = models.create(manifest->model);
     if (!model) return tl::unexpected<Error>(inFile(model.error(), where));
-    const std::size_t viewCount = manifest->field.views.size();
-    WEFT_TRY(const FieldShape shape, checkParts(file, **model, viewCount, fileBytes, where));
+    const std::size_t layersThere = layerCount(**model, manifest->field);
+    WEFT_TRY(const FieldShape shape, checkParts(file, **model, layersThere, fileBytes, where));
 
     FloatImage shared(shape.width, shape.height, (*model)->sharedChannels());
-    FloatImage views(shape.width, shape.height, (*model)->viewChannels(), static_cast<int>(viewCount));
+    FloatImage layers;
+    if (layersThere > 0)
+      layers =
+          FloatImage(shape.width, shape.height, (*model)->layerChannels(), static_cast<int>(layersThere));
     shared.setPrecision(shape.shared);
-    views.setPrecision(shape.views);
-    WEFT_TRY_VOID(readParts(where, shared, views));
+    layers.setPrecision(shape.layers);
+    WEFT_TRY_VOID(readParts(where, shared, layers));
     Result<ReflectanceField> field =
-        ReflectanceField::create(*model, std::move(manifest->field), std::move(shared), std::move(views));
+        ReflectanceField::create(*model, std::move(manifest->field), std::move(shared), std::move(layers));
     if (!field) return tl::unexpected<Error>(inFile(field.error(), where));
     return field;
   } catch (const std::exception& error) {
@@ -157,12 +175,11 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
 
 std::uint64_t gpuBytes(const ReflectanceField& field) {
   constexpr std::uint64_t kTexelBytes = 4 * 2;
-  const auto texelsFor = [](int channels) { return static_cast<std::uint64_t>((channels + 3) / 4); };
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(field.width()) * static_cast<std::uint64_t>(field.height());
-  return kTexelBytes * pixels *
-         (texelsFor(field.shared().channelCount()) +
-          static_cast<std::uint64_t>(field.viewCount()) * texelsFor(field.views().channelCount()));
+  const ReflectanceModel& model = field.model();
+  const int texels =
+      model.colorChannels() * (sharedTexels(model) + field.layers().layers() * layerTexels(model));
+  return kTexelBytes * static_cast<std::uint64_t>(field.width()) *
+         static_cast<std::uint64_t>(field.height()) * static_cast<std::uint64_t>(texels);
 }
 
 }  // namespace weft

@@ -9,7 +9,7 @@
 #include "weft/chunks/RasterChunk.h"
 #include "weft/chunks/TextureChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
-#include "weft/reflectance/ViewLookup.h"
+#include "weft/reflectance/LayerLookup.h"
 
 namespace weft {
 namespace {
@@ -23,32 +23,87 @@ struct FieldBlock {
   float padding = 0.0f;
 };
 
-int texelsFor(const FloatImage& image) {
-  return (image.channelCount() + 3) / 4;
+// Channels `first`.. of a layer of `from`, four a texel, into layers `layer`.. of `to`.
+void packNumbers(const FloatImage& from, int fromLayer, int first, int count, FloatImage& to, int layer,
+                 int component) {
+  for (int y = 0; y < from.height(); ++y)
+    for (int x = 0; x < from.width(); ++x)
+      for (int i = 0; i < count; ++i)
+        to.at(x, y, (component + i) % 4, layer + (component + i) / 4) = from.at(x, y, first + i, fromLayer);
 }
 
-// As RGBA, a layer for every four channels of every layer: the last texel of a layer may have spare numbers.
-std::shared_ptr<const FloatImage> packed(const FloatImage& image) {
-  const int texels = texelsFor(image);
-  auto result = std::make_shared<FloatImage>(
-      image.width(), image.height(), std::vector<std::string>{"R", "G", "B", "A"}, image.layers() * texels);
-  for (int layer = 0; layer < image.layers(); ++layer)
-    for (int y = 0; y < image.height(); ++y)
-      for (int x = 0; x < image.width(); ++x)
-        for (int channel = 0; channel < image.channelCount(); ++channel)
-          result->at(x, y, channel % 4, layer * texels + channel / 4) = image.at(x, y, channel, layer);
-  result->setPrecision(image.precision());
-  return result;
+FloatImage rgbaLayers(const ReflectanceField& field, int layers) {
+  return FloatImage(field.width(), field.height(), {"R", "G", "B", "A"}, layers);
+}
+
+// As shaders/field_numbers.glsl reads them: for every colour channel the base colour and the shared numbers.
+std::shared_ptr<const FloatImage> packedShared(const ReflectanceField& field) {
+  const ReflectanceModel& model = field.model();
+  const int channels = model.colorChannels();
+  auto packed = std::make_shared<FloatImage>(rgbaLayers(field, channels * sharedTexels(model)));
+  const int numbers = static_cast<int>(model.sharedNumbers().size());
+  for (int c = 0; c < channels; ++c) {
+    packNumbers(field.shared(), 0, 0, 3, *packed, c * sharedTexels(model), 0);
+    packNumbers(field.shared(), 0, 3 + c * numbers, numbers, *packed, c * sharedTexels(model), 3);
+  }
+  packed->setPrecision(field.shared().precision());
+  return packed;
+}
+
+// For every layer and colour channel the numbers, padded to whole texels.
+std::shared_ptr<const FloatImage> packedLayers(const ReflectanceField& field) {
+  const ReflectanceModel& model = field.model();
+  const int channels = model.colorChannels();
+  const int numbers = static_cast<int>(model.layerNumbers().size());
+  const int layers = field.layers().layers();
+  auto packed = std::make_shared<FloatImage>(rgbaLayers(field, layers * channels * layerTexels(model)));
+  for (int layer = 0; layer < layers; ++layer)
+    for (int c = 0; c < channels; ++c)
+      packNumbers(field.layers(), layer, c * numbers, numbers, *packed,
+                  (layer * channels + c) * layerTexels(model), 0);
+  packed->setPrecision(field.layers().precision());
+  return packed;
+}
+
+const char* decodeFunction(Encoding encoding) {
+  switch (encoding) {
+    case Encoding::Linear:
+      return "";
+    case Encoding::Gamma22:
+      return "decodeGamma22";
+    case Encoding::Srgb:
+      return "decodeSrgb";
+  }
+  return "";
 }
 
 ShaderSource sourceFor(const ReflectanceField& field, const BTFMaterialOptions& options) {
+  const ReflectanceModel& model = field.model();
   ShaderSource source{.vertex = "mesh.vert", .fragment = "btf.frag"};
-  for (const auto& define : field.model().shaderDefines()) source.defines.push_back(define);
+  for (const auto& define : model.shaderDefines()) source.defines.push_back(define);
+  source.defines.emplace_back("COLOR_CHANNELS", std::to_string(model.colorChannels()));
+  source.defines.emplace_back("SHARED_TEXELS", std::to_string(sharedTexels(model)));
+  source.defines.emplace_back("LAYER_TEXELS", std::to_string(layerTexels(model)));
+  source.defines.emplace_back("DECODE", decodeFunction(field.description().encoding));
+  if (model.layerDirections() == LayerDirections::Lights)
+    source.defines.emplace_back("LAYERS_ARE_LIGHTS", "");
   if (field.description().hasCosine) source.defines.emplace_back("MODEL_HAS_COSINE", "");
-  if (options.interpolatedViews == 1) source.defines.emplace_back("NEAREST_VIEW", "");
+  if (options.interpolatedViews == 1) source.defines.emplace_back("NEAREST_LAYER", "");
   if (options.filter == TexelFilter::Bilinear) source.defines.emplace_back("BILINEAR", "");
-  source.includeAliases["model.glsl"] = field.model().shaderFile();
+  source.includeAliases["model.glsl"] = model.shaderFile();
   return source;
+}
+
+// The layers' numbers, and the tables that find them.
+void setLayerChunks(BTFMaterial& material, const ReflectanceField& field) {
+  const LayerLookup lookup = LayerLookup::create(field.formula().triangulation());
+  material.setChunk(textureSlot(0), std::make_shared<TextureChunk>(
+                                        packedLayers(field), TextureOptions{.shape = TextureShape::Array}));
+  material.setChunk(textureSlot(2), std::make_shared<CubeTextureChunk>(
+                                        std::make_shared<const FloatImage>(lookup.triangleOfDirection)));
+  material.setChunk(textureSlot(3),
+                    std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(lookup.triangles),
+                                                   TextureOptions{.shape = TextureShape::Rectangle}));
 }
 
 }  // namespace
@@ -61,24 +116,18 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
     return fail(fmt::format("the texture cannot be scaled by {} x {}", options.textureScale.x,
                             options.textureScale.y),
                 {}, "numbers above 0");
-  if (field->viewCount() * texelsFor(field->views()) > kMaximumLayers)
-    return fail(fmt::format("{} views of {} texels are more than {} layers", field->viewCount(),
-                            texelsFor(field->views()), kMaximumLayers));
+  const int layers =
+      field->formula().layerCount() * field->model().colorChannels() * layerTexels(field->model());
+  if (layers > kMaximumLayers)
+    return fail(fmt::format("the field needs {} texture layers of at most {}", layers, kMaximumLayers));
 
-  const ViewLookup lookup = ViewLookup::create(field->triangulation());
   std::shared_ptr<BTFMaterial> material(new BTFMaterial(field));
   material->setChunk(ProgramSlot, std::make_shared<ProgramChunk>(sourceFor(*field, options)));
-  material->setChunk(
-      textureSlot(0),
-      std::make_shared<TextureChunk>(packed(field->views()), TextureOptions{.shape = TextureShape::Array}));
-  material->setChunk(textureSlot(1), std::make_shared<TextureChunk>(packed(field->shared())));
-  material->setChunk(textureSlot(2), std::make_shared<CubeTextureChunk>(
-                                         std::make_shared<const FloatImage>(lookup.triangleOfDirection)));
-  material->setChunk(textureSlot(3),
-                     std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(lookup.triangles),
-                                                    TextureOptions{.shape = TextureShape::Rectangle}));
+  if (layers > 0) setLayerChunks(*material, *field);
+  material->setChunk(textureSlot(1), std::make_shared<TextureChunk>(
+                                         packedShared(*field), TextureOptions{.shape = TextureShape::Array}));
   material->setChunk(uniformSlot(2), std::make_shared<UniformBlockChunk>(blockBytes(
-                                         FieldBlock{options.textureScale, field->lowestLightZ()})));
+                                         FieldBlock{options.textureScale, field->formula().lowestLightZ()})));
   if (options.doubleSided) material->setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
   return material;
 }

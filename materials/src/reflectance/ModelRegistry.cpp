@@ -11,6 +11,9 @@ ModelRegistry ModelRegistry::builtin() {
   ModelRegistry registry;
   registry.add("rfp", RfpModel::create);
   registry.add("rfnl", RfnlModel::create);
+  registry.add("lfp", RfpModel::create);
+  registry.add("lfnl", RfnlModel::create);
+  registry.add("ptm", RfpModel::create);
   return registry;
 }
 

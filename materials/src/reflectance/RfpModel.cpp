@@ -4,26 +4,24 @@
 
 namespace weft {
 
-Result<std::shared_ptr<const ReflectanceModel>> RfpModel::create(const ModelDescription&) {
-  return std::make_shared<const RfpModel>();
+Result<std::shared_ptr<const ReflectanceModel>> RfpModel::create(const ModelDescription& description) {
+  return std::make_shared<const RfpModel>(
+      ModelDescription{description.name, 0, DiffuseAlbedo::Shared, description.color});
 }
 
-ModelDescription RfpModel::description() const {
-  return {"rfp", 0, DiffuseAlbedo::Shared};
+LayerDirections RfpModel::layerDirections() const {
+  return description().name == "lfp" ? LayerDirections::Lights : LayerDirections::Views;
 }
 
-std::vector<std::string> RfpModel::sharedChannels() const {
-  return {"R", "G", "B"};
-}
-
-std::vector<std::string> RfpModel::viewChannels() const {
+std::vector<std::string> RfpModel::layerNumbers() const {
   return {"a0", "a1", "a2", "a3", "a4", "a5"};
 }
 
-glm::vec3 RfpModel::evaluate(std::span<const float> shared, std::span<const float> a, glm::vec3 l) const {
-  const float polynomial =
-      a[0] * l.x * l.x + a[1] * l.y * l.y + a[2] * l.x * l.y + a[3] * l.x + a[4] * l.y + a[5];
-  return std::max(polynomial, 0.0f) * glm::vec3(shared[0], shared[1], shared[2]);
+float RfpModel::evaluate(std::span<const float>, std::span<const float> a, glm::vec3 light,
+                         glm::vec3 view) const {
+  const glm::vec3 d = variedDirection(light, view);
+  return std::max(a[0] * d.x * d.x + a[1] * d.y * d.y + a[2] * d.x * d.y + a[3] * d.x + a[4] * d.y + a[5],
+                  0.0f);
 }
 
 }  // namespace weft

@@ -50,8 +50,8 @@ TEST(Fitter, RfpRecoversItsCoefficients) {
   const float scale = luminance(color);
   for (int channel = 0; channel < 3; ++channel)
     EXPECT_NEAR(shared[static_cast<std::size_t>(channel)], color[channel] / scale, 1e-5);
-  for (int view = 0; view < fit.field.viewCount(); ++view) {
-    const auto a = fit.field.views().texel(0, 0, view);
+  for (int view = 0; view < fit.field.layers().layers(); ++view) {
+    const auto a = fit.field.layers().texel(0, 0, view);
     const float viewX = source.description().views[static_cast<std::size_t>(view)].x;
     const std::array expected{0.1f, -0.2f, 0.3f, 0.2f * viewX, -0.1f, 0.9f};
     for (std::size_t k = 0; k < 6; ++k)
@@ -95,8 +95,9 @@ TEST(Fitter, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
       for (int theta = 0; theta <= 90; theta += 2)
         for (int phi = 0; phi < 360; phi += 45) {
           const glm::vec3 light = directionFromDegrees(theta, phi);
-          for (int view = 0; view < fit.field.viewCount(); view += 8)
-            EXPECT_NEAR(fit.field.evaluateView(0, 0, view, light).y, std::max(light.z, 0.0f), 1e-3)
+          for (int view = 0; view < fit.field.layers().layers(); view += 8)
+            EXPECT_NEAR(fit.field.evaluateLayer(0, 0, view, light, {0, 0, 1}).y, std::max(light.z, 0.0f),
+                        1e-3)
                 << model << (cosineInData ? " with" : " without") << " n.l, theta " << theta;
         }
     }
@@ -109,7 +110,7 @@ TEST(Fitter, TheCosineMayStayInTheModel) {
   const FitResult fit = valueOf(fitReflectanceField(source, options));
   EXPECT_TRUE(fit.field.description().hasCosine);
   EXPECT_LT(epsilon(fit), 2e-3);
-  EXPECT_NEAR(fit.field.evaluateView(0, 0, 0, directionFromDegrees(85, 10)).x,
+  EXPECT_NEAR(fit.field.evaluateLayer(0, 0, 0, directionFromDegrees(85, 10), {0, 0, 1}).x,
               0.5 * std::cos(85 * M_PI / 180), 3e-3);
 }
 
@@ -122,7 +123,8 @@ TEST(Fitter, LightFadesToTheTerminatorWithoutAStep) {
       options.cosineInModel = cosineInModel;
       const FitResult fit = valueOf(fitReflectanceField(source, options));
       for (int phi = 0; phi < 360; phi += 15)
-        EXPECT_LT(fit.field.evaluateView(0, 0, 40, directionFromDegrees(89.9, phi)).y, 1.0f / 255.0f)
+        EXPECT_LT(fit.field.evaluateLayer(0, 0, 40, directionFromDegrees(89.9, phi), {0, 0, 1}).y,
+                  1.0f / 255.0f)
             << model;
     }
 }
@@ -138,7 +140,8 @@ TEST(Fitter, BlackAndBrokenTexelsGiveFiniteNumbers) {
     options.precision = Precision::Half;
     const FitResult fit =
         valueOf(fitReflectanceField(source, options));  // create() refuses what is not finite
-    EXPECT_LT(glm::length(fit.field.evaluateView(0, 0, 3, directionFromDegrees(20, 20))), 1e-3f) << model;
+    EXPECT_LT(glm::length(fit.field.evaluateLayer(0, 0, 3, directionFromDegrees(20, 20), {0, 0, 1})), 1e-3f)
+        << model;
     EXPECT_TRUE(std::isfinite(epsilon(fit)));
   }
 }
@@ -164,8 +167,8 @@ TEST(Fitter, CropsAreTheSameTexelsAndMustLieInside) {
   ASSERT_EQ(crop.field.width(), 2);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 2; ++x)
-      EXPECT_TRUE(
-          std::ranges::equal(crop.field.views().texel(x, y, 5), whole.field.views().texel(x + 1, y + 1, 5)));
+      EXPECT_TRUE(std::ranges::equal(crop.field.layers().texel(x, y, 5),
+                                     whole.field.layers().texel(x + 1, y + 1, 5)));
   for (const Crop& outside :
        {Crop{3, 0, 2, 1}, Crop{0, 0, 0, 1}, Crop{-1, 0, 2, 2}, Crop{0, 2, 1, 0x7fffffff}}) {
     options.crop = outside;
@@ -183,14 +186,14 @@ TEST(Fitter, NeitherThreadsNorBlocksChangeTheResult) {
   const FitResult atOnce = valueOf(fitReflectanceField(tall, options));
   options.memory = std::size_t{64} << 20;
   const FitResult inBlocks = valueOf(fitReflectanceField(tall, options));
-  EXPECT_TRUE(sameNumbers(atOnce.field.views(), inBlocks.field.views()));
+  EXPECT_TRUE(sameNumbers(atOnce.field.layers(), inBlocks.field.layers()));
   EXPECT_EQ(atOnce.field.description().fitReport, inBlocks.field.description().fitReport);
 
   const MemoryBtf small(4, 3, uneven);
   const FitResult parallel = valueOf(fitReflectanceField(small, optionsFor("rfnl")));
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const FitResult serial = valueOf(fitReflectanceField(small, optionsFor("rfnl")));
-  EXPECT_TRUE(sameNumbers(parallel.field.views(), serial.field.views()));
+  EXPECT_TRUE(sameNumbers(parallel.field.layers(), serial.field.layers()));
   EXPECT_TRUE(sameNumbers(parallel.field.shared(), serial.field.shared()));
   EXPECT_EQ(parallel.field.description().fitReport, serial.field.description().fitReport);
 }

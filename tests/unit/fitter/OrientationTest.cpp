@@ -85,7 +85,7 @@ Material fitted(std::shared_ptr<const BtfSource> source, const FitOptions& optio
             const glm::vec3 l = field->description().lights[static_cast<std::size_t>(light)];
             for (int y = 0; y < image.height(); ++y)
               for (int x = 0; x < image.width(); ++x)
-                image.at(x, y, 0) = luminance(field->evaluateView(x, y, view, l));
+                image.at(x, y, 0) = luminance(field->evaluateLayer(x, y, view, l, {0, 0, 1}));
             return image;
           }};
 }

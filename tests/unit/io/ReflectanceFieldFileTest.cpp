@@ -48,7 +48,7 @@ ReflectanceField madeUpField(const ModelDescription& description, Precision prec
   about.source = "wool \"knitted\" \xc3\xa4";
   about.fitReport = R"({"epsilon":{"linear":{"luminance":{"avg":0.0301}}},"b":[1,2],"a":null})";
   FloatImage shared = madeUpParameters(model->sharedChannels(), 1);
-  FloatImage views = madeUpParameters(model->viewChannels(), kViews);
+  FloatImage views = madeUpParameters(model->layerChannels(), kViews);
   if (precision == Precision::Half) shared.roundToHalf(), views.roundToHalf();
   return valueOf(ReflectanceField::create(model, about, shared, views));
 }
@@ -84,7 +84,7 @@ TEST(ReflectanceFieldFile, KeepsEverything) {
       EXPECT_EQ(read.description().source, written.description().source);
       EXPECT_EQ(read.description().fitReport, written.description().fitReport);
       expectEqual(read.shared(), written.shared());
-      expectEqual(read.views(), written.views());
+      expectEqual(read.layers(), written.layers());
     }
   EXPECT_THAT(test::namesIn(folder), testing::ElementsAre("a.rf.exr"));
 }
@@ -114,10 +114,10 @@ TEST(ReflectanceFieldFile, LooksAsDocumented) {
   buffer.insert("lobe1.exponent", Imf::Slice::Make(Imf::FLOAT, exponents.data(), part.header().dataWindow()));
   part.setFrameBuffer(buffer);
   part.readPixels(0, kHeight - 1);
-  const int channel = *field.views().channelIndex("lobe1.exponent");
+  const int channel = *field.layers().channelIndex("lobe1.exponent");
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      ASSERT_EQ(exponents[static_cast<std::size_t>(y * kWidth + x)], field.views().at(x, y, channel, 2));
+      ASSERT_EQ(exponents[static_cast<std::size_t>(y * kWidth + x)], field.layers().at(x, y, channel, 2));
 }
 
 TEST(ReflectanceFieldFile, CountsTheBytesOfItsTextures) {
@@ -135,7 +135,8 @@ TEST(ReflectanceFieldFile, RefusesAFitReportThatIsNotJson) {
     ReflectanceFieldDescription about = good.description();
     about.fitReport = report;
     const auto model = valueOf(ModelRegistry::builtin().create({}));
-    const ReflectanceField bad = valueOf(ReflectanceField::create(model, about, good.shared(), good.views()));
+    const ReflectanceField bad =
+        valueOf(ReflectanceField::create(model, about, good.shared(), good.layers()));
     const Result<void> result = writeReflectanceField(bad, folder / "a.rf.exr");
     ASSERT_FALSE(result);
     EXPECT_THAT(result.error().message(), HasSubstr("the fit report is not JSON"));
@@ -179,8 +180,8 @@ TEST(ReflectanceFieldFile, SurvivesMutations) {
 // Files made by another hand, wrong in one way each.
 struct ForeignFile {
   std::string manifest =
-      R"({"format":"weft reflectance field","version":1,"model":{"name":"rfp","lobes":0,"diffuse_albedo":"shared"},)"
-      R"("color_space":"linear Rec. 709","has_cosine":false,"source":"","fit":null,)"
+      R"({"format":"weft reflectance field","version":2,"model":{"name":"rfp","lobes":0,"diffuse_albedo":"shared","color":"luminance"},)"
+      R"("color_space":"linear Rec. 709","encoding":"linear","has_cosine":false,"source":"","fit":null,)"
       R"("views":[[0,0,1]],"lights":[[0,0,1]]})";
   std::string sharedName = "shared";
   std::string viewName = "view000";
@@ -232,13 +233,15 @@ TEST(ReflectanceFieldFile, ReadsAFileByAnotherHand) {
 
 TEST(ReflectanceFieldFile, RefusesWrongManifests) {
   const std::vector<std::tuple<std::string, std::string, std::string>> changes{
-      {"\"version\":1", "\"version\":2", "this Weft reads version 1"},
+      {"\"version\":2", "\"version\":3", "this Weft reads version 2"},
       {"weft reflectance field", "something", "another format"},
       {"\"rfp\"", "\"rfq\"", "unknown model 'rfq'"},
       {"\"shared\"", "\"none\"", "unknown diffuse_albedo 'none'"},
+      {"\"luminance\"", "\"hue\"", "unknown color 'hue'"},
+      {"\"linear\"", "\"log\"", "unknown encoding 'log'"},
       {"linear Rec. 709", "XYZ", "unknown colour space"},
       {"\"views\":[[0,0,1]]", "\"views\":[[0,0,1],[0.6,0,0.8],[0,0.6,0.8]]",
-       "describes 3 views, the file has 1"},
+       "describes 3 layers, the file has 1"},
       {"\"views\":[[0,0,1]]", "\"views\":[]", "directions are not an array"},
       {"\"views\":[[0,0,1]]", "\"views\":[[0,1]]", "has not three numbers"},
       {"\"views\":[[0,0,1]]", "\"views\":[[0,0,\"up\"]]", "the manifest is damaged"},

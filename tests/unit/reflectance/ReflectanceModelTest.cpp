@@ -14,6 +14,8 @@ namespace {
 
 using test::valueOf;
 
+const glm::vec3 kView(0.6f, 0.0f, 0.8f);  // where it does not matter
+
 TEST(ReflectanceModel, RfpIsThePaperPolynomialTimesTheBaseColor) {
   const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
   const std::array shared{0.5f, 1.0f, 2.0f};
@@ -21,7 +23,7 @@ TEST(ReflectanceModel, RfpIsThePaperPolynomialTimesTheBaseColor) {
   const glm::vec3 l = directionFromDegrees(40, 70);
   const float expected =
       0.1f * l.x * l.x - 0.2f * l.y * l.y + 0.3f * l.x * l.y + 0.4f * l.x - 0.5f * l.y + 0.9f;
-  const glm::vec3 value = model->evaluate(shared, a, l);
+  const glm::vec3 value = model->evaluateColor(shared, a, l, kView);
   EXPECT_NEAR(value.x, 0.5f * expected, 1e-6);
   EXPECT_NEAR(value.y, expected, 1e-6);
   EXPECT_NEAR(value.z, 2.0f * expected, 1e-6);
@@ -31,7 +33,7 @@ TEST(ReflectanceModel, NegativeValuesBecomeBlack) {
   const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
   const std::array shared{1.0f, 1.0f, 1.0f};
   const std::array a{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, -1.0f};
-  EXPECT_EQ(model->evaluate(shared, a, {0, 0, 1}), glm::vec3(0.0f));
+  EXPECT_EQ(model->evaluateColor(shared, a, {0, 0, 1}, kView), glm::vec3(0.0f));
 }
 
 TEST(ReflectanceModel, RfnlLobesAreCosinePowersAroundTheirDirections) {
@@ -46,7 +48,7 @@ TEST(ReflectanceModel, RfnlLobesAreCosinePowersAroundTheirDirections) {
     const glm::vec3 l = directionFromDegrees(50, phi);
     const float expected = 0.125f + 0.7f * std::pow(std::max(glm::dot(first, l), 0.0f), 12.0f) +
                            0.4f * std::pow(std::max(glm::dot(second, l), 0.0f), 3.0f);
-    const glm::vec3 value = model->evaluate(shared, view, l);
+    const glm::vec3 value = model->evaluateColor(shared, view, l, kView);
     EXPECT_NEAR(value.x, expected, 1e-5);
     EXPECT_NEAR(value.y, 0.5f * expected, 1e-5);
     EXPECT_NEAR(value.z, 0.25f * expected, 1e-5);
@@ -57,10 +59,39 @@ TEST(ReflectanceModel, RfnlMayHaveADiffuseAlbedoOfEachViewsOwn) {
   const auto model = valueOf(
       ModelRegistry::builtin().create({.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}));
   EXPECT_EQ(model->sharedChannels().size(), 3u);
-  ASSERT_EQ(model->viewChannels().back(), "rho_d");
+  ASSERT_EQ(model->layerChannels().back(), "rho_d");
   const std::array shared{1.0f, 1.0f, 1.0f};
   const std::array view{0.0f, 0.0f, 0.0f, 1.0f, 0.3f};
-  EXPECT_NEAR(model->evaluate(shared, view, {0, 0, 1}).x, 0.3f, 1e-6);
+  EXPECT_NEAR(model->evaluateColor(shared, view, {0, 0, 1}, kView).x, 0.3f, 1e-6);
+}
+
+TEST(ReflectanceModel, LightFieldsHaveLightAndViewExchanged) {
+  const glm::vec3 light = directionFromDegrees(40, 70);
+  const glm::vec3 view = directionFromDegrees(20, 200);
+  const std::array polynomial{0.1f, -0.2f, 0.3f, 0.4f, -0.5f, 0.9f};
+  const std::array lobe{0.7f, 0.1f, 0.2f, 12.0f};
+  const std::array diffuse{0.1f};
+  const ModelRegistry registry = ModelRegistry::builtin();
+  const auto model = [&](const char* name) { return valueOf(registry.create({.name = name, .lobes = 1})); };
+  EXPECT_EQ(model("lfp")->layerDirections(), LayerDirections::Lights);
+  EXPECT_EQ(model("lfp")->evaluate({}, polynomial, light, view),
+            model("rfp")->evaluate({}, polynomial, view, light));
+  EXPECT_EQ(model("lfnl")->evaluate(diffuse, lobe, light, view),
+            model("rfnl")->evaluate(diffuse, lobe, view, light));
+}
+
+TEST(ReflectanceModel, EachColorChannelMayHaveNumbersOfItsOwn) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp", .color = FitColor::Rgb}));
+  const std::vector<std::string> channels = model->layerChannels();
+  ASSERT_EQ(channels.size(), 18u);
+  EXPECT_EQ(channels[0], "a0.R");
+  EXPECT_EQ(channels[17], "a5.B");
+  std::array<float, 18> numbers{};
+  numbers[5] = 0.25f;
+  numbers[11] = 0.5f;
+  numbers[17] = 0.75f;
+  const std::array shared{2.0f, 1.0f, 1.0f};
+  EXPECT_EQ(model->evaluateColor(shared, numbers, kView, kView), glm::vec3(0.5f, 0.5f, 0.75f));
 }
 
 TEST(ReflectanceModel, UnknownModelsAndImpossibleLobesAreRefused) {

@@ -45,11 +45,11 @@ class TexelFitter {
  public:
   virtual ~TexelFitter() = default;
 
-  /// `luminance[view][light]` is linear and contains n.l; not-finite samples have been made 0. Fills the
-  /// model's shared parameters after the base colour (in place; the base colour is there already) and
-  /// `views[view][channel]`; every number written is finite.
-  virtual void fit(std::span<const float> luminance, std::span<float> shared,
-                   std::span<float> views) const = 0;
+  /// Fits one colour channel: minimises the sum of (weight (target - n.l RF))^2, without n.l where it is in
+  /// the model. `targets` and `weights` are `[view][light]`, finite, weights >= 0 (all may be 0). Fills the
+  /// model's shared numbers and `layers[layer][number]`; every number written is finite.
+  virtual void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
+                   std::span<float> layers) const = 0;
 };
 
 /// Makes fitters by model name; the counterpart of ModelRegistry.

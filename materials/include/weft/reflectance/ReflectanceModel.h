@@ -15,35 +15,76 @@ namespace weft {
 /// Whether all views of a texel share one diffuse albedo, as in paper M eq. 1, or each has its own.
 enum class DiffuseAlbedo { Shared, PerView };
 
+/// What a model's numbers describe: luminance, which the texel's base colour turns into RGB, or each colour
+/// channel by itself, as multiples of the base colour.
+enum class FitColor { Luminance, Rgb };
+
+/// The directions for which a model has a set of numbers each, a *layer*. Between them values are
+/// interpolated.
+enum class LayerDirections {
+  None,    ///< one set of numbers for everything
+  Views,   ///< the measured views: a reflectance field, RF_v(x, l)
+  Lights,  ///< the measured lights: a light field, LF_l(x, v) (paper M 3.1)
+};
+
 /// What a file or a command line says of a model; the registry makes the model from it.
 struct ModelDescription {
   std::string name = "rfnl";
-  int lobes = 2;  ///< of the models that have lobes
+  int lobes = 2;  ///< of the models that have lobes, else 0
   DiffuseAlbedo diffuseAlbedo = DiffuseAlbedo::Shared;
+  FitColor color = FitColor::Luminance;
 };
 
-/// The formula RF_v(x, l) of one reflectance model: what its numbers are called and what they evaluate to.
-/// The CPU reference for the GLSL file of the same name.
+/// The formula of one reflectance model: what its numbers are called and what they evaluate to. The CPU
+/// reference for the GLSL file of the same name.
 ///
-/// A texel has *shared* parameters (one set for all views) and *view* parameters (one set a measured view).
-/// Immutable, thread safe.
+/// A texel has *shared* numbers (one set) and *layer* numbers (one set a measured view, or light, or none at
+/// all: layerDirections()). Immutable, thread safe.
 class ReflectanceModel {
  public:
+  explicit ReflectanceModel(ModelDescription description) : description_(std::move(description)) {}
   virtual ~ReflectanceModel() = default;
 
-  virtual ModelDescription description() const = 0;
-  /// Channel names of the shared parameters, in the order in which evaluate() and the GLSL read them.
-  virtual std::vector<std::string> sharedChannels() const = 0;
-  /// Channel names of one view's parameters, likewise.
-  virtual std::vector<std::string> viewChannels() const = 0;
-  /// Linear RGB for light from the unit direction `light` (tangent frame), clamped at 0 (models.md, "Clamp");
-  /// with or without n.l, as the fit was made. Spans are as long as the channel lists.
-  virtual glm::vec3 evaluate(std::span<const float> shared, std::span<const float> view,
-                             glm::vec3 light) const = 0;
+  const ModelDescription& description() const { return description_; }
+  virtual LayerDirections layerDirections() const { return LayerDirections::Views; }
+  /// Names of the shared numbers but the base colour, in the order in which evaluate() and the GLSL read
+  /// them.
+  virtual std::vector<std::string> sharedNumbers() const { return {}; }
+  /// Names of one layer's numbers, likewise.
+  virtual std::vector<std::string> layerNumbers() const { return {}; }
+  /// What the base colour is multiplied by for unit directions in the tangent frame, clamped at 0
+  /// (models.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the lists of names.
+  virtual float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
+                         glm::vec3 view) const = 0;
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
   virtual std::map<std::string, std::string> shaderDefines() const { return {}; }
+
+  /// 1, or 3 with FitColor::Rgb.
+  int colorChannels() const { return description_.color == FitColor::Rgb ? 3 : 1; }
+  /// The channels of a field's shared image: the base colour, then the shared numbers, of red, green and blue
+  /// one after another with FitColor::Rgb ("rho_d.R").
+  std::vector<std::string> sharedChannels() const;
+  /// The channels of a field's layers, likewise.
+  std::vector<std::string> layerChannels() const;
+  /// evaluate() for every colour channel, times the base colour. Spans are as long as the lists of channels.
+  glm::vec3 evaluateColor(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
+                          glm::vec3 view) const;
+
+ protected:
+  /// The direction that varies within a layer.
+  glm::vec3 variedDirection(glm::vec3 light, glm::vec3 view) const {
+    return layerDirections() == LayerDirections::Lights ? view : light;
+  }
+
+ private:
+  ModelDescription description_;
 };
+
+/// How many RGBA texels a colour channel of a model needs on the GPU (shaders/field_numbers.glsl): shared
+/// ones, the first of which begins with the base colour, and those of a layer.
+int sharedTexels(const ReflectanceModel& model);
+int layerTexels(const ReflectanceModel& model);
 
 /// Makes models by name. A value: build your own, or start from builtin() and add to it.
 class ModelRegistry {

@@ -1,20 +1,24 @@
-// Which measured views a view direction lies between, and their weights: HemisphereTriangulation.h and ViewLookup.h say how.
+// Which layers of a field (measured views, or lights) a direction lies between, and their weights: HemisphereTriangulation.h and
+// LayerLookup.h say how.
 
 layout(binding = 2) uniform samplerCube triangleOfDirection;
 layout(binding = 3) uniform sampler2DRect triangles;  // a row a triangle, a texel a corner
 
-struct ViewWeights {
-  ivec3 view;
+struct LayerWeights {
+  ivec3 index;
   vec3 weight;
 };
 
 // `v`: unit, tangent frame; below the horizon it counts as on it.
-ViewWeights findViews(vec3 v) {
+LayerWeights findLayers(vec3 v) {
+#if LAYER_TEXELS == 0
+  return LayerWeights(ivec3(0), vec3(1.0, 0.0, 0.0));
+#endif
   v = normalize(vec3(v.xy, max(v.z, 0.0)) + vec3(0.0, 0.0, 1e-12));
   vec3 p = vec3(v.xy / (1.0 + v.z), 1.0);
   int triangle = int(texture(triangleOfDirection, v).r);
 
-  // xyz: what the weight is the dot product of p with; w: 1 + the view, negative where the edge opposite of it is the hull.
+  // xyz: what the weight is the dot product of p with; w: 1 + the index, negative where the edge opposite of it is the hull.
   vec4 corner[3];
   for (int k = 0; k < 3; ++k) corner[k] = texelFetch(triangles, ivec2(k, triangle));
   for (int k = 0; k < 3; ++k) {
@@ -25,17 +29,16 @@ ViewWeights findViews(vec3 v) {
       break;
     }
   }
-  ViewWeights found;
+  LayerWeights found;
   for (int k = 0; k < 3; ++k) {
-    found.view[k] = int(abs(corner[k].w)) - 1;
+    found.index[k] = int(abs(corner[k].w)) - 1;
     found.weight[k] = max(dot(corner[k].xyz, p), 0.0);
   }
   found.weight /= found.weight.x + found.weight.y + found.weight.z;
+#ifdef NEAREST_LAYER
+  vec3 w = found.weight;
+  int best = w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
+  found = LayerWeights(ivec3(found.index[best]), vec3(1.0, 0.0, 0.0));
+#endif
   return found;
-}
-
-// The view of the largest weight alone.
-ViewWeights nearestView(ViewWeights found) {
-  int best = found.weight.x >= found.weight.y && found.weight.x >= found.weight.z ? 0 : found.weight.y >= found.weight.z ? 1 : 2;
-  return ViewWeights(ivec3(found.view[best]), vec3(1.0, 0.0, 0.0));
 }

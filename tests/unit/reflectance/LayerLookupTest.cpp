@@ -1,4 +1,4 @@
-#include "weft/reflectance/ViewLookup.h"
+#include "weft/reflectance/LayerLookup.h"
 
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@ std::vector<glm::vec3> randomDirections(int count) {
   return directions;
 }
 
-TEST(ViewLookup, EqualsTheTriangulationButForCubeTexelsAcrossAnEdge) {
+TEST(LayerLookup, EqualsTheTriangulationButForCubeTexelsAcrossAnEdge) {
   const std::vector<glm::vec3> views = test::ubo2003Sampling();
   const auto triangulation = test::valueOf(HemisphereTriangulation::create(views));
-  const ViewLookup lookup = ViewLookup::create(triangulation);
+  const LayerLookup lookup = LayerLookup::create(triangulation);
 
   int across = 0;
   const std::vector<glm::vec3> directions = randomDirections(20000);
@@ -49,10 +49,10 @@ TEST(ViewLookup, EqualsTheTriangulationButForCubeTexelsAcrossAnEdge) {
   EXPECT_LT(across, static_cast<int>(directions.size()) / 10);
 }
 
-TEST(ViewLookup, FindsEveryMeasuredView) {
+TEST(LayerLookup, FindsEveryMeasuredView) {
   const std::vector<glm::vec3> views = test::ubo2003Sampling();
   const auto triangulation = test::valueOf(HemisphereTriangulation::create(views));
-  const ViewLookup lookup = ViewLookup::create(triangulation);
+  const LayerLookup lookup = LayerLookup::create(triangulation);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const DirectionWeights found = lookup.locate(triangulation, views[i]);
     EXPECT_EQ(found.nearest(), static_cast<int>(i));

@@ -6,8 +6,8 @@
 namespace weft {
 
 /// The tables with which a shader finds the measured views around a direction in two fetches (paper M 5.1,
-/// shaders/view_lookup.glsl).
-struct ViewLookup {
+/// shaders/layer_lookup.glsl).
+struct LayerLookup {
   /// A cube map whose texels hold the number of the triangle at their centre: six layers, one channel, faces
   /// +X -X +Y -Y +Z -Z.
   FloatImage triangleOfDirection;
@@ -15,7 +15,7 @@ struct ViewLookup {
   /// the edge opposite of the corner lies on the hull.
   FloatImage triangles;
 
-  static ViewLookup create(const HemisphereTriangulation& triangulation, int cubeSize = 128);
+  static LayerLookup create(const HemisphereTriangulation& triangulation, int cubeSize = 128);
 
   /// What the shader computes: exact inside a triangle; where a cube texel straddles an edge its centre's
   /// triangle decides, and negative weights are clamped.

@@ -1,4 +1,4 @@
-#include "weft/reflectance/ViewLookup.h"
+#include "weft/reflectance/LayerLookup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +44,8 @@ glm::vec3 cubeDirection(int face, float s, float t) {
 
 }  // namespace
 
-ViewLookup ViewLookup::create(const HemisphereTriangulation& triangulation, int cubeSize) {
-  ViewLookup lookup;
+LayerLookup LayerLookup::create(const HemisphereTriangulation& triangulation, int cubeSize) {
+  LayerLookup lookup;
   lookup.triangleOfDirection = FloatImage(cubeSize, cubeSize, {"triangle"}, 6);
   const float step = 1.0f / static_cast<float>(cubeSize);
   for (int face = 0; face < 6; ++face)
@@ -70,7 +70,8 @@ ViewLookup ViewLookup::create(const HemisphereTriangulation& triangulation, int 
   return lookup;
 }
 
-DirectionWeights ViewLookup::locate(const HemisphereTriangulation& triangulation, glm::vec3 direction) const {
+DirectionWeights LayerLookup::locate(const HemisphereTriangulation& triangulation,
+                                     glm::vec3 direction) const {
   direction.z = std::max(direction.z, 0.0f);
   const CubePoint at = cubePoint(direction);
   const auto size = static_cast<float>(triangleOfDirection.width());

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "weft/core/Color.h"
+#include "weft/core/HemisphereTriangulation.h"
+#include "weft/core/Result.h"
+#include "weft/reflectance/ReflectanceModel.h"
+
+namespace weft {
+
+/// Everything about a fit but its numbers.
+struct ReflectanceFieldDescription {
+  std::vector<glm::vec3> views;   ///< fitted view directions, tangent frame, unit
+  std::vector<glm::vec3> lights;  ///< fitted light directions, likewise
+  bool hasCosine = false;  ///< the model contains n.l (M's literal fit) instead of being multiplied by it
+  /// Of what the model evaluates to; anything but linear means a literal fit of stored values, as the
+  /// papers'.
+  Encoding encoding = Encoding::Linear;
+  std::string source;     ///< the name of the measurement, for people
+  std::string fitReport;  ///< JSON text of the fit's errors, as weft-fit wrote it; may be empty
+};
+
+/// The smallest z of a set of directions.
+float lowestZ(std::span<const glm::vec3> directions);
+
+/// How the numbers of a texel become a value: the model, the cosine and the interpolation between layers. The
+/// CPU reference of shaders/btf.frag (paper M eq. 4). Immutable, thread safe.
+class FieldFormula {
+ public:
+  /// Fails where the directions are none or not of unit length, or a model that contains n.l has lights on
+  /// the horizon alone.
+  static Result<FieldFormula> create(std::shared_ptr<const ReflectanceModel> model,
+                                     const ReflectanceFieldDescription& description);
+
+  const ReflectanceModel& model() const { return *model_; }
+  /// How many layers a field of this formula has.
+  int layerCount() const { return layerCount_; }
+  /// Between the directions of the layers.
+  const HemisphereTriangulation& triangulation() const { return triangulation_; }
+  /// The z of the outermost measured lights: where a model that has the cosine ends.
+  float lowestLightZ() const { return lowestLightZ_; }
+
+  /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.
+  ///
+  /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured ring are
+  /// evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never extrapolated and
+  /// still ends at the terminator.
+  glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
+                     glm::vec3 view) const;
+  /// The layers to interpolate, and their weights.
+  DirectionWeights layersAround(glm::vec3 light, glm::vec3 view) const;
+
+ private:
+  glm::vec3 modelValue(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
+                       glm::vec3 view) const;
+
+  std::shared_ptr<const ReflectanceModel> model_;
+  HemisphereTriangulation triangulation_;
+  int layerCount_ = 0;
+  bool hasCosine_ = false;
+  Encoding encoding_ = Encoding::Linear;
+  float lowestLightZ_ = 0.0f;
+};
+
+}  // namespace weft

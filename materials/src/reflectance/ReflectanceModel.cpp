@@ -1,0 +1,51 @@
+#include "weft/reflectance/ReflectanceModel.h"
+
+namespace weft {
+namespace {
+
+void append(std::vector<std::string>& channels, const std::vector<std::string>& numbers, FitColor color) {
+  if (color == FitColor::Luminance) {
+    channels.insert(channels.end(), numbers.begin(), numbers.end());
+    return;
+  }
+  for (const char* suffix : {".R", ".G", ".B"})
+    for (const std::string& number : numbers) channels.push_back(number + suffix);
+}
+
+}  // namespace
+
+std::vector<std::string> ReflectanceModel::sharedChannels() const {
+  std::vector<std::string> channels{"R", "G", "B"};
+  append(channels, sharedNumbers(), description_.color);
+  return channels;
+}
+
+std::vector<std::string> ReflectanceModel::layerChannels() const {
+  std::vector<std::string> channels;
+  append(channels, layerNumbers(), description_.color);
+  return channels;
+}
+
+glm::vec3 ReflectanceModel::evaluateColor(std::span<const float> shared, std::span<const float> layer,
+                                          glm::vec3 light, glm::vec3 view) const {
+  const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
+  shared = shared.subspan(3);
+  if (description_.color == FitColor::Luminance) return evaluate(shared, layer, light, view) * baseColor;
+  const std::size_t sharedCount = shared.size() / 3;
+  const std::size_t layerCount = layer.size() / 3;
+  glm::vec3 color;
+  for (std::size_t c = 0; c < 3; ++c)
+    color[static_cast<int>(c)] = evaluate(shared.subspan(c * sharedCount, sharedCount),
+                                          layer.subspan(c * layerCount, layerCount), light, view);
+  return color * baseColor;
+}
+
+int sharedTexels(const ReflectanceModel& model) {
+  return (3 + static_cast<int>(model.sharedNumbers().size()) + 3) / 4;
+}
+
+int layerTexels(const ReflectanceModel& model) {
+  return (static_cast<int>(model.layerNumbers().size()) + 3) / 4;
+}
+
+}  // namespace weft
