@@ -245,7 +245,7 @@ TEST(ReflectanceFieldFile, RefusesWrongManifests) {
       {"\"views\":[[0,0,1]]", "\"views\":[]", "directions are not an array"},
       {"\"views\":[[0,0,1]]", "\"views\":[[0,1]]", "has not three numbers"},
       {"\"views\":[[0,0,1]]", "\"views\":[[0,0,\"up\"]]", "the manifest is damaged"},
-      {"\"views\":[[0,0,1]]", "\"views\":[[0,0,2]]", "not a unit vector"},
+      {"\"views\":[[0,0,1]]", "\"views\":[[0,0,2]]", "not of unit length"},
       {"\"lights\":[[0,0,1]]", "\"lights\":[[3,0,1]]", "not of unit length"},
       {"\"has_cosine\":false,", "", "the manifest is damaged"},
       {"false", "17", "the manifest is damaged"},
@@ -279,7 +279,7 @@ TEST(ReflectanceFieldFile, RefusesNumbersThatAreNotFinite) {
   for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     ForeignFile foreign;
     foreign.value = value;
-    EXPECT_THAT(errorOf(foreign), HasSubstr("parameter is not a finite number"));
+    EXPECT_THAT(errorOf(foreign), HasSubstr("number is not finite"));
   }
 }
 
