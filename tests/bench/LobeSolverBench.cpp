@@ -27,14 +27,15 @@ Result<LobeTexels> measuredTexels(const char* file) {
   const std::size_t lights = btf.lights.size();
   const int rows = static_cast<int>((kFits / views + static_cast<std::size_t>(btf.width) - 1) /
                                     static_cast<std::size_t>(btf.width));
-  std::vector<float> block(static_cast<std::size_t>(rows) * static_cast<std::size_t>(btf.width) * views *
-                           lights * 3);
+  SampleRows block;
   WEFT_TRY_VOID(source->readRows(0, rows, block));
+  std::vector<glm::vec3> samples(lights);
   for (std::size_t fit = 0; fit < kFits; ++fit) {
+    const int texel = static_cast<int>(fit / views);
+    block.linear(texel / btf.width, texel % btf.width, samples, fit % views * lights);
     std::size_t brightest = 0;
     for (std::size_t i = 0; i < lights; ++i) {
-      const float* rgb = &block[(fit * lights + i) * 3];
-      texels.luminance.push_back(luminance({rgb[0], rgb[1], rgb[2]}));
+      texels.luminance.push_back(luminance(samples[i]));
       texels.weights.push_back(1.0f / std::sqrt(texels.luminance.back() + 0.01f));
       if (texels.luminance.back() > texels.luminance[fit * lights + brightest]) brightest = i;
     }

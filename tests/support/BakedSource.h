@@ -28,15 +28,11 @@ class BakedSource : public BtfSource {
 
   const BtfDescription& description() const override { return description_; }
 
-  Result<void> readView(int view, std::span<float> out) const override {
-    std::ranges::copy(views_[static_cast<std::size_t>(view)], out.begin());
-    return {};
-  }
-
-  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override {
+  Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const override {
+    WEFT_TRY_VOID(out.allocate(description_, rowCount));
     const std::size_t width = static_cast<std::size_t>(description_.width);
     const std::size_t first = static_cast<std::size_t>(firstRow) * width;
-    auto next = out.begin();
+    auto next = out.floats().begin();
     for (std::size_t texel = first; texel < first + static_cast<std::size_t>(rowCount) * width; ++texel)
       for (const std::vector<float>& view : views_)
         for (std::size_t light = 0; light < description_.lights.size(); ++light)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "weft/core/Direction.h"
 #include "weft/io/BtfSource.h"
@@ -34,7 +35,8 @@ class MemoryBtf : public BtfSource {
   const BtfDescription& description() const override { return description_; }
   BtfDescription& description() { return description_; }
 
-  Result<void> readView(int view, std::span<float> out) const override {
+  /// All lights of one view, `out[light][row][column][rgb]`, as writeBtfZip() asks for them.
+  Result<void> readView(int view, std::span<float> out) const {
     std::size_t next = 0;
     for (glm::vec3 light : description_.lights)
       for (int y = 0; y < description_.height; ++y)
@@ -43,7 +45,9 @@ class MemoryBtf : public BtfSource {
     return {};
   }
 
-  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override {
+  Result<void> readRows(int firstRow, int rowCount, SampleRows& rows) const override {
+    WEFT_TRY_VOID(rows.allocate(description_, rowCount));
+    const std::span<float> out = rows.floats();
     std::size_t next = 0;
     for (int y = firstRow; y < firstRow + rowCount; ++y)
       for (int x = 0; x < description_.width; ++x)

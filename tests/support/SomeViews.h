@@ -13,28 +13,26 @@ class SomeViews : public BtfSource {
  public:
   SomeViews(std::shared_ptr<const BtfSource> all, std::vector<int> views)
       : all_(std::move(all)), views_(std::move(views)), description_(all_->description()) {
+    description_.storedAsBytes = false;
     description_.views.clear();
     for (const int view : views_)
       description_.views.push_back(all_->description().views[static_cast<std::size_t>(view)]);
   }
 
   const BtfDescription& description() const override { return description_; }
-  Result<void> readView(int view, std::span<float> out) const override {
-    return all_->readView(views_[static_cast<std::size_t>(view)], out);
-  }
-  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override {
+  Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const override {
+    SampleRows all;
+    WEFT_TRY_VOID(all_->readRows(firstRow, rowCount, all));
+    WEFT_TRY_VOID(out.allocate(description_, rowCount));
     const std::size_t lights = description_.lights.size();
-    const std::size_t width = static_cast<std::size_t>(description_.width);
-    const std::size_t first = static_cast<std::size_t>(firstRow) * width;
-    const std::size_t count = static_cast<std::size_t>(rowCount) * width;
-    std::vector<float> images(lights * description_.texels() * 3);
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-      WEFT_TRY_VOID(readView(static_cast<int>(view), images));
-      for (std::size_t light = 0; light < lights; ++light)
-        for (std::size_t texel = 0; texel < count; ++texel)
-          std::copy_n(&images[(light * description_.texels() + first + texel) * 3], 3,
-                      &out[((texel * views_.size() + view) * lights + light) * 3]);
-    }
+    std::vector<glm::vec3> samples(lights);
+    auto next = out.floats().begin();
+    for (int row = 0; row < rowCount; ++row)
+      for (int column = 0; column < description_.width; ++column)
+        for (const int view : views_) {
+          all.linear(row, column, samples, static_cast<std::size_t>(view) * lights);
+          for (const glm::vec3& rgb : samples) next = std::copy_n(&rgb.x, 3, next);
+        }
     return {};
   }
 

@@ -145,7 +145,6 @@ Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions&
                                           Encoding::Linear, measured.name,   {}};
   WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
   const FitJob job{measured, options, *fitter, formula, shared, views};
-  const std::size_t pairs = measured.views.size() * measured.lights.size();
   std::vector<TexelErrors> errors(static_cast<std::size_t>(crop.width) *
                                   static_cast<std::size_t>(crop.height));
   TexelCounter counter(errors.size(), progress);
@@ -153,24 +152,19 @@ Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions&
   double secondsFitting = 0.0;
 
   const int rowsAtOnce = std::min(source.rowsWithin(options.memory), crop.height);
-  std::vector<float> block(static_cast<std::size_t>(rowsAtOnce) * static_cast<std::size_t>(measured.width) *
-                           pairs * 3);
+  SampleRows block;
   for (int first = 0; first < crop.height; first += rowsAtOnce) {
     const int rows = std::min(rowsAtOnce, crop.height - first);
     const auto startOfReading = Clock::now();
-    const std::size_t rowFloats = static_cast<std::size_t>(measured.width) * pairs * 3;
-    WEFT_TRY_VOID(source.readRows(crop.y + first, rows,
-                                  std::span(block).first(static_cast<std::size_t>(rows) * rowFloats)));
+    WEFT_TRY_VOID(source.readRows(crop.y + first, rows, block));
     secondsReading += secondsSince(startOfReading);
     const auto startOfFitting = Clock::now();
     tbb::parallel_for(0, rows * crop.width, [&](int i) {
       const int x = i % crop.width;
       const int row = i / crop.width;
-      float* texel = block.data() + static_cast<std::size_t>(row) * rowFloats +
-                     static_cast<std::size_t>(crop.x + x) * pairs * 3;
-      // Three floats a sample, as glm::vec3 is laid out.
-      static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-      job.fitTexel({reinterpret_cast<glm::vec3*>(texel), pairs}, x, first + row,
+      std::vector<glm::vec3> samples(block.pairs());
+      block.linear(row, crop.x + x, samples);
+      job.fitTexel(samples, x, first + row,
                    errors[static_cast<std::size_t>(first + row) * static_cast<std::size_t>(crop.width) +
                           static_cast<std::size_t>(x)]);
       if (x == crop.width - 1) counter.add(static_cast<std::size_t>(crop.width));

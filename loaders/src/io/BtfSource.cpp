@@ -8,11 +8,15 @@ namespace weft {
 
 namespace fs = std::filesystem;
 
+std::size_t BtfDescription::rowBytes() const {
+  const std::size_t sampleBytes = 3 * (storedAsBytes ? sizeof(std::uint8_t) : sizeof(float));
+  return static_cast<std::size_t>(width) * views.size() * lights.size() * sampleBytes;
+}
+
 int BtfSource::rowsWithin(std::size_t bytes) const {
   const BtfDescription& d = description();
-  const std::size_t rowBytes =
-      static_cast<std::size_t>(d.width) * d.views.size() * d.lights.size() * 3 * sizeof(float);
-  return static_cast<int>(std::clamp<std::size_t>(bytes / rowBytes, 1, static_cast<std::size_t>(d.height)));
+  return static_cast<int>(
+      std::clamp<std::size_t>(bytes / d.rowBytes(), 1, static_cast<std::size_t>(d.height)));
 }
 
 Result<std::unique_ptr<BtfSource>> openBtf(const fs::path& path) {

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -72,6 +75,41 @@ Result<std::vector<int>> completeTable(const FileOfPair& fileOfPair, const std::
   return table;
 }
 
+// Images wait as a batch for being transposed, so that what is written to a texel is a long run.
+constexpr std::size_t kBatchBytes = std::size_t{64} << 20;
+
+// As many rows as `out` holds.
+void copyRgb(const Image& image, int firstRow, std::span<std::uint8_t> out) {
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::uint8_t* from = image.pixel(0, firstRow);
+  if (channels == 3) {
+    std::copy_n(from, out.size(), out.begin());
+    return;
+  }
+  for (std::size_t i = 0; i < out.size(); i += 3, from += channels)
+    for (std::size_t c = 0; c < 3; ++c) out[i + c] = from[channels < 3 ? 0 : c];
+}
+
+// `images[pair][texel][rgb]` to `out[texel * stride + pair * 3 + rgb]`, by tiles that stay in the first
+// cache: a line of every image would not, as they lie at distances that are multiples of its size.
+void transpose(std::span<const std::uint8_t> images, std::size_t pairs, std::size_t texels, std::uint8_t* out,
+               std::size_t stride) {
+  constexpr std::size_t kTilePairs = 128;
+  constexpr std::size_t kTileTexels = 64;
+  tbb::parallel_for(std::size_t{0}, (texels + kTileTexels - 1) / kTileTexels, [&](std::size_t tile) {
+    const std::size_t firstTexel = tile * kTileTexels;
+    const std::size_t tileTexels = std::min(kTileTexels, texels - firstTexel);
+    for (std::size_t firstPair = 0; firstPair < pairs; firstPair += kTilePairs) {
+      const std::size_t tilePairs = std::min(kTilePairs, pairs - firstPair);
+      for (std::size_t pair = firstPair; pair < firstPair + tilePairs; ++pair) {
+        const std::uint8_t* from = &images[(pair * texels + firstTexel) * 3];
+        std::uint8_t* to = out + firstTexel * stride + pair * 3;
+        for (std::size_t i = 0; i < tileTexels; ++i) std::memcpy(to + i * stride, from + i * 3, 3);
+      }
+    }
+  });
+}
+
 std::vector<glm::vec3> directions(const std::set<Angles>& angles) {
   std::vector<glm::vec3> result;
   for (const Angles& a : angles) result.push_back(directionFromDegrees(a.theta, a.phi));
@@ -102,10 +140,9 @@ Result<std::unique_ptr<ImageBtfSource>> ImageBtfSource::create(std::unique_ptr<F
   description.views = directions(views);
   description.lights = directions(lights);
   description.encoding = images.encoding;
+  description.storedAsBytes = true;
   description.cosineInData = true;  // photographs of an irradiated surface
   description.name = std::move(name);
-  for (std::size_t i = 0; i < source->linear_.size(); ++i)
-    source->linear_[i] = decode(images.encoding, static_cast<float>(i) / 255.0f);
   return source;
 }
 
@@ -113,9 +150,8 @@ std::string ImageBtfSource::whereOf(int file) const {
   return where_ + ": " + files_->names()[static_cast<std::size_t>(file)];
 }
 
-Result<Image> ImageBtfSource::readPair(int view, int light) const {
-  const std::size_t lights = description_.lights.size();
-  const int file = fileOfPair_[static_cast<std::size_t>(view) * lights + static_cast<std::size_t>(light)];
+Result<Image> ImageBtfSource::readPair(std::size_t pair) const {
+  const int file = fileOfPair_[pair];
   WEFT_TRY(const std::vector<std::uint8_t> bytes, files_->read(file));
   WEFT_TRY(const ImageSize size, imageSize(bytes, whereOf(file)));
   if (size.width != description_.width || size.height != description_.height)
@@ -125,48 +161,25 @@ Result<Image> ImageBtfSource::readPair(int view, int light) const {
   return decodeImage(bytes, whereOf(file));
 }
 
-Result<void> ImageBtfSource::readView(int view, std::span<float> out) const {
-  const std::size_t lights = description_.lights.size();
-  const std::size_t texels = description_.texels();
-  WEFT_EXPECT(view >= 0 && view < static_cast<int>(description_.views.size()), "the view exists");
-  WEFT_EXPECT(out.size() == lights * texels * 3, "out holds [light][row][column][rgb]");
-  return parallelTry(static_cast<int>(lights), [&](int light) -> Result<void> {
-    WEFT_TRY(const Image image, readPair(view, light));
-    const std::size_t channels = static_cast<std::size_t>(image.channels);
-    float* to = out.data() + static_cast<std::size_t>(light) * texels * 3;
-    for (std::size_t texel = 0; texel < texels; ++texel)
-      for (std::size_t c = 0; c < 3; ++c)
-        *to++ = linear_[image.bytes[texel * channels + (channels < 3 ? 0 : c)]];
-    return {};
-  });
-}
-
-Result<void> ImageBtfSource::readRows(int firstRow, int rowCount, std::span<float> out) const {
-  const std::size_t views = description_.views.size();
-  const std::size_t lights = description_.lights.size();
+Result<void> ImageBtfSource::readRows(int firstRow, int rowCount, SampleRows& out) const {
   WEFT_EXPECT(firstRow >= 0 && rowCount > 0 && firstRow + rowCount <= description_.height, "the rows exist");
+  WEFT_TRY_VOID(out.allocate(description_, rowCount));
   const std::size_t texels =
       static_cast<std::size_t>(rowCount) * static_cast<std::size_t>(description_.width);
-  WEFT_EXPECT(out.size() == texels * views * lights * 3, "out holds [row][column][view][light][rgb]");
-
-  // A view at a time keeps the writes of a thread together. What waits to be transposed waits as bytes.
-  return parallelTry(static_cast<int>(views), [&](int view) -> Result<void> {
-    std::vector<std::uint8_t> stored(lights * texels * 3);  // [light][row][column][rgb]
-    for (std::size_t light = 0; light < lights; ++light) {
-      WEFT_TRY(const Image image, readPair(view, static_cast<int>(light)));
-      const std::size_t channels = static_cast<std::size_t>(image.channels);
-      const std::uint8_t* from = image.pixel(0, firstRow);
-      for (std::size_t texel = 0; texel < texels; ++texel)
-        for (std::size_t c = 0; c < 3; ++c)
-          stored[(light * texels + texel) * 3 + c] = from[texel * channels + (channels < 3 ? 0 : c)];
-    }
-    for (std::size_t texel = 0; texel < texels; ++texel) {
-      float* to = out.data() + (texel * views + static_cast<std::size_t>(view)) * lights * 3;
-      for (std::size_t light = 0; light < lights; ++light)
-        for (std::size_t c = 0; c < 3; ++c) *to++ = linear_[stored[(light * texels + texel) * 3 + c]];
-    }
-    return {};
-  });
+  const std::size_t imageBytes = texels * 3;
+  const std::size_t pairsAtOnce = std::clamp<std::size_t>(kBatchBytes / imageBytes, 1, out.pairs());
+  std::vector<std::uint8_t> batch(pairsAtOnce * imageBytes);  // [pair][row][column][rgb]
+  for (std::size_t first = 0; first < out.pairs(); first += pairsAtOnce) {
+    const std::size_t count = std::min(pairsAtOnce, out.pairs() - first);
+    WEFT_TRY_VOID(parallelTry(static_cast<int>(count), [&](int index) -> Result<void> {
+      const std::size_t i = static_cast<std::size_t>(index);
+      WEFT_TRY(const Image image, readPair(first + i));
+      copyRgb(image, firstRow, std::span(batch).subspan(i * imageBytes, imageBytes));
+      return {};
+    }));
+    transpose(batch, count, texels, out.bytes().data() + first * 3, out.pairs() * 3);
+  }
+  return {};
 }
 
 }  // namespace weft

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -19,20 +18,18 @@ class ImageBtfSource : public BtfSource {
                                                         std::string where, std::string name);
 
   const BtfDescription& description() const override { return description_; }
-  Result<void> readView(int view, std::span<float> out) const override;
-  Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const override;
+  Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const override;
 
  private:
   ImageBtfSource() = default;
 
   std::string whereOf(int file) const;
-  Result<Image> readPair(int view, int light) const;
+  Result<Image> readPair(std::size_t pair) const;
 
   std::unique_ptr<FileCollection> files_;
   std::string where_;
   BtfDescription description_;
   std::vector<int> fileOfPair_;  ///< [view][light]
-  std::array<float, 256> linear_{};
 };
 
 }  // namespace weft

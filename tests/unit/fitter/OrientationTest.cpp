@@ -9,10 +9,10 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
 
 #include "Relief.h"
+#include "Samples.h"
 #include "SomeViews.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -56,20 +56,16 @@ struct Material {
 };
 
 Material measured(std::shared_ptr<const BtfSource> source) {
-  auto cache = std::make_shared<std::map<int, std::vector<float>>>();
-  const BtfDescription& description = source->description();
-  return {description.views, description.lights, [source, cache](int view, int light) {
-            const BtfDescription& d = source->description();
-            std::vector<float>& values = (*cache)[view];
-            if (values.empty()) {
-              values.resize(d.lights.size() * d.texels() * 3);
-              test::requireDone(source->readView(view, values));
-            }
-            FloatImage rgb(d.width, d.height, {"R", "G", "B"});
-            const std::size_t count = d.texels() * 3;
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(light) * count),
-                        count, rgb.values().begin());
-            return test::luminanceOf(rgb);
+  const BtfDescription& d = source->description();
+  const auto samples = std::make_shared<const SampleRows>(test::allRows(*source));
+  return {d.views, d.lights, [samples, lights = d.lights.size()](int view, int light) {
+            const std::size_t pair =
+                static_cast<std::size_t>(view) * lights + static_cast<std::size_t>(light);
+            FloatImage image(samples->columns(), samples->rows(), {"Y"});
+            for (int y = 0; y < image.height(); ++y)
+              for (int x = 0; x < image.width(); ++x)
+                image.at(x, y, 0) = luminance(test::linearSample(*samples, x, y, pair));
+            return image;
           }};
 }
 

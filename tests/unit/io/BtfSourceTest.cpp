@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <thread>
 
+#include "Samples.h"
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -54,14 +56,17 @@ fs::path anImageOf(const fs::path& folder) {
   return folder / "tv030_pv090" / "tl075_pl345_tv030_pv090.png";
 }
 
-std::size_t viewValues(const BtfDescription& d) {
-  return d.lights.size() * d.texels() * 3;
+glm::vec3 storedColor(int view, int light, int x, int y) {
+  return glm::vec3(storedValue(view, light, x, y, 0), storedValue(view, light, x, y, 1),
+                   storedValue(view, light, x, y, 2)) /
+         255.0f;
 }
 
-std::vector<float> readWholeView(const BtfSource& source, int view) {
-  std::vector<float> values(viewValues(source.description()));
-  requireDone(source.readView(view, values));
-  return values;
+// The linear RGB of a texel, all its pairs.
+std::vector<glm::vec3> texelOf(const SampleRows& rows, int x, int y) {
+  std::vector<glm::vec3> texel(rows.pairs());
+  rows.linear(y, x, texel);
+  return texel;
 }
 
 std::string errorOfOpening(const fs::path& path) {
@@ -71,10 +76,27 @@ std::string errorOfOpening(const fs::path& path) {
 
 std::string errorOfReading(const fs::path& path) {
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(path));
-  std::vector<float> values(viewValues(source->description()));
-  for (int view = 0; view < static_cast<int>(source->description().views.size()); ++view)
-    if (const auto result = source->readView(view, values); !result) return result.error().message();
-  return "read";
+  SampleRows rows;
+  const auto result = source->readRows(0, source->description().height, rows);
+  return result ? "read" : result.error().message();
+}
+
+void expectMadeUpRows(const SampleRows& rows, int first, int count) {
+  ASSERT_EQ(rows.rows(), count);
+  ASSERT_EQ(rows.columns(), kWidth);
+  ASSERT_EQ(rows.pairs(), 6u);
+  std::vector<glm::vec3> stored(6);
+  for (int y = 0; y < count; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const std::vector<glm::vec3> linear = texelOf(rows, x, y);
+      rows.stored(y, x, stored);
+      for (std::size_t pair = 0; pair < 6; ++pair) {
+        const glm::vec3 expected =
+            storedColor(static_cast<int>(pair / 2), static_cast<int>(pair % 2), x, first + y);
+        ASSERT_EQ(stored[pair], expected);
+        ASSERT_EQ(linear[pair], decode(Encoding::Srgb, expected));
+      }
+    }
 }
 
 void expectMadeUpMeasurement(const BtfSource& source) {
@@ -87,16 +109,8 @@ void expectMadeUpMeasurement(const BtfSource& source) {
   ASSERT_EQ(d.views, (std::vector<glm::vec3>{directionFromDegrees(0, 0), directionFromDegrees(30, 90),
                                              directionFromDegrees(30, 180)}));
   ASSERT_EQ(d.lights, (std::vector<glm::vec3>{directionFromDegrees(0, 0), directionFromDegrees(75, 345)}));
-  for (int view = 0; view < 3; ++view) {
-    const std::vector<float> values = readWholeView(source, view);
-    std::size_t i = 0;
-    for (int light = 0; light < 2; ++light)
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-          for (int c = 0; c < 3; ++c)
-            ASSERT_EQ(values[i++],
-                      decode(Encoding::Srgb, static_cast<float>(storedValue(view, light, x, y, c)) / 255.0f));
-  }
+  EXPECT_TRUE(d.storedAsBytes);
+  expectMadeUpRows(test::allRows(source), 0, kHeight);
 }
 
 TEST(BtfSource, ReadsAFolderExactly) {
@@ -116,25 +130,26 @@ TEST(BtfSource, ReadsStoredAndDeflatedZipsExactly) {
   }
 }
 
-TEST(BtfSource, RowsHoldTheSameAsViews) {
+TEST(BtfSource, ReadsSomeRowsAfterOthersIntoTheSameMemory) {
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(makeFolder()));
-  constexpr int first = 1;
-  constexpr int rows = 2;
-  std::vector<float> block(static_cast<std::size_t>(rows * kWidth * 3 * 2 * 3));
-  requireDone(source->readRows(first, rows, block));
-  std::size_t i = 0;
-  for (int y = first; y < first + rows; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      for (int view = 0; view < 3; ++view)
-        for (int light = 0; light < 2; ++light)
-          for (int c = 0; c < 3; ++c)
-            ASSERT_EQ(block[i++],
-                      decode(Encoding::Srgb, static_cast<float>(storedValue(view, light, x, y, c)) / 255.0f));
+  SampleRows rows;
+  for (const auto& [first, count] : {std::pair(0, 2), std::pair(2, 1), std::pair(3, 1), std::pair(1, 3)}) {
+    requireDone(source->readRows(first, count, rows));
+    expectMadeUpRows(rows, first, count);
+  }
+}
+
+TEST(BtfSource, ReadsSomePairsOfATexel) {
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(makeFolder()));
+  const SampleRows rows = test::allRows(*source);
+  std::vector<glm::vec3> view(2);
+  rows.stored(3, 4, view, 2);
+  EXPECT_EQ(view, (std::vector{storedColor(1, 0, 4, 3), storedColor(1, 1, 4, 3)}));
 }
 
 TEST(BtfSource, FitsRowsIntoMemory) {
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(makeFolder()));
-  constexpr std::size_t rowBytes = kWidth * 3 * 2 * 3 * sizeof(float);
+  constexpr std::size_t rowBytes = kWidth * 3 * 2 * 3;
   EXPECT_EQ(source->rowsWithin(0), 1);
   EXPECT_EQ(source->rowsWithin(3 * rowBytes - 1), 2);
   EXPECT_EQ(source->rowsWithin(3 * rowBytes), 3);
@@ -146,13 +161,14 @@ TEST(BtfSource, MayBeReadFromManyThreads) {
   const fs::path zip = folder.parent_path() / "cloth.zip";
   test::zipFolder(folder, zip, true);
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));
-  std::vector<std::vector<float>> expected;
-  for (int view = 0; view < 3; ++view) expected.push_back(readWholeView(*source, view));
   std::vector<std::thread> threads;
   for (int i = 0; i < 6; ++i)
-    threads.emplace_back([&, view = i % 3] {
-      for (int repeat = 0; repeat < 20; ++repeat)
-        EXPECT_EQ(readWholeView(*source, view), expected[static_cast<std::size_t>(view)]);
+    threads.emplace_back([&, first = i % 3] {
+      SampleRows rows;
+      for (int repeat = 0; repeat < 20; ++repeat) {
+        requireDone(source->readRows(first, 2, rows));
+        expectMadeUpRows(rows, first, 2);
+      }
     });
   for (std::thread& thread : threads) thread.join();
 }
@@ -195,10 +211,13 @@ TEST(BtfSource, DecodesJpegsWithGamma22) {
   test::writeBytes(folder / "tl000 pl000 tv000 pv000.jpg", valueOf(encodeJpeg(image, 95)));
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
   EXPECT_EQ(source->description().encoding, Encoding::Gamma22);
-  const std::vector<float> values = readWholeView(*source, 0);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    ASSERT_NEAR(std::pow(values[i], 1.0 / 2.2), (60.0 + 70.0 * static_cast<double>(i % 3)) / 255.0,
-                1.5 / 255.0);
+  const SampleRows rows = test::allRows(*source);
+  for (int texel = 0; texel < 256; ++texel) {
+    const glm::vec3 rgb = test::linearSample(rows, texel % 16, texel / 16, 0);
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(std::pow(rgb[c], 1.0f / 2.2f), (60.0f + 70.0f * static_cast<float>(c)) / 255.0f,
+                  1.5f / 255.0f);
+  }
 }
 
 TEST(BtfSource, ReadsGreyImagesAsRgb) {
@@ -206,9 +225,10 @@ TEST(BtfSource, ReadsGreyImagesAsRgb) {
   Image grey(3, 1, 1);
   grey.bytes = {0, 100, 255};
   requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", grey));
-  const std::vector<float> values = readWholeView(*valueOf(openBtf(folder)), 0);
-  const float middle = decode(Encoding::Srgb, 100.0f / 255.0f);
-  EXPECT_EQ(values, (std::vector<float>{0, 0, 0, middle, middle, middle, 1, 1, 1}));
+  const SampleRows rows = test::allRows(*valueOf(openBtf(folder)));
+  EXPECT_EQ(test::linearSample(rows, 0, 0, 0), glm::vec3(0.0f));
+  EXPECT_EQ(test::linearSample(rows, 1, 0, 0), glm::vec3(decode(Encoding::Srgb, 100.0f / 255.0f)));
+  EXPECT_EQ(test::linearSample(rows, 2, 0, 0), glm::vec3(1.0f));
 }
 
 TEST(BtfSource, RefusesWhatIsNotThere) {
@@ -251,9 +271,6 @@ TEST(BtfSource, RefusesImagesOfDifferentSizes) {
   const fs::path folder = makeFolder();
   requireDone(writePng(anImageOf(folder), Image(kWidth + 1, kHeight, 3)));
   EXPECT_THAT(errorOfReading(folder), HasSubstr("tl075_pl345_tv030_pv090.png: the image has 6 x 4 pixels"));
-  const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
-  std::vector<float> block(kWidth * 3 * 2 * 3);
-  EXPECT_FALSE(source->readRows(0, 1, block));
 }
 
 TEST(BtfSource, RefusesWhatIsNoImage) {
@@ -315,6 +332,17 @@ TEST(BtfSource, RefusesAnEntryThatUnpacksToTooMuch) {
   EXPECT_THAT(errorOfOpening(zip), HasSubstr("the entry unpacks to 4294967294 bytes"));
 }
 
+TEST(BtfSource, MissingMemoryIsAnError) {
+  BtfDescription petabytes;
+  petabytes.width = 1 << 24;
+  petabytes.views = petabytes.lights = std::vector(1000, glm::vec3(0, 0, 1));
+  petabytes.name = "huge";
+  SampleRows rows;
+  const auto result = rows.allocate(petabytes, 1000);
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message(), HasSubstr("huge: there is no memory for 201326592000000000 bytes"));
+}
+
 // models.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60 degrees.
 TEST(BtfSource, WoolFallsOffWithTheCosine) {
   WEFT_DATA_FILE(zip, "ubo2003/UBO_WOOL64.zip");
@@ -325,13 +353,17 @@ TEST(BtfSource, WoolFallsOffWithTheCosine) {
   ASSERT_EQ(d.width, 64);
   ASSERT_EQ(d.height, 64);
   EXPECT_EQ(d.views, d.lights);
-  const std::vector<float> top = readWholeView(*source, 0);
-  const auto meanOfLights = [&](std::size_t first, std::size_t count) {
-    const std::size_t imageValues = d.texels() * 3;
-    double sum = 0.0;
-    for (std::size_t i = first * imageValues; i < (first + count) * imageValues; i += 3)
-      sum += static_cast<double>(luminance({top[i], top[i + 1], top[i + 2]}));
-    return sum / static_cast<double>(count * d.texels());
+  const SampleRows rows = test::allRows(*source);
+  std::vector<double> sumOfLight(81);  // of the top view
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const std::vector<glm::vec3> texel = texelOf(rows, x, y);
+      for (std::size_t light = 0; light < 81; ++light)
+        sumOfLight[light] += static_cast<double>(luminance(texel[light]));
+    }
+  const auto meanOfLights = [&](std::ptrdiff_t first, std::ptrdiff_t count) {
+    const auto start = sumOfLight.begin() + first;
+    return std::accumulate(start, start + count, 0.0) / static_cast<double>(count);
   };
   const double headOn = meanOfLights(0, 1);
   EXPECT_NEAR(meanOfLights(1, 6) / headOn, 0.963, 0.02);

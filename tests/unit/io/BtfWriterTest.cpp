@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "Samples.h"
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -57,15 +58,18 @@ TEST(BtfWriter, ReadsBackLikeAMeasurement) {
   EXPECT_TRUE(d.cosineInData);
   EXPECT_EQ(d.views, description().views);
   EXPECT_EQ(d.lights, description().lights);
-  std::vector<float> values(d.lights.size() * d.texels() * 3);
-  for (int view = 0; view < 3; ++view) {
-    requireDone(source->readView(view, values));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const int light = static_cast<int>(i / (d.texels() * 3));
-      ASSERT_NEAR(encode(Encoding::Gamma22, values[i]),
-                  encode(Encoding::Gamma22, madeUpValue(view, light, i / 3 % d.texels(), i % 3)), 0.03f);
+  const SampleRows rows = test::allRows(*source);
+  for (std::size_t pair = 0; pair < 6; ++pair)
+    for (std::size_t texel = 0; texel < d.texels(); ++texel) {
+      const int x = static_cast<int>(texel) % kSize;
+      const int y = static_cast<int>(texel) / kSize;
+      const glm::vec3 rgb = test::linearSample(rows, x, y, pair);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float written = madeUpValue(static_cast<int>(pair / 2), static_cast<int>(pair % 2), texel, c);
+        ASSERT_NEAR(encode(Encoding::Gamma22, rgb[static_cast<int>(c)]), encode(Encoding::Gamma22, written),
+                    0.03f);
+      }
     }
-  }
   EXPECT_THAT(test::namesIn(zip.parent_path()), ElementsAre("stripes.zip"));
 }
 
@@ -102,10 +106,9 @@ TEST(BtfWriter, ClampsWhatTheLayoutCannotHold) {
   };
   requireDone(writeBtfZip(zip, description(), extremes));
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));
-  std::vector<float> values(2 * kSize * kSize * 3);
-  requireDone(source->readView(0, values));
-  EXPECT_EQ(values.front(), 1.0f);
-  EXPECT_EQ(values.back(), 0.0f);
+  const SampleRows rows = test::allRows(*source);
+  EXPECT_EQ(test::linearSample(rows, 0, 0, 0), glm::vec3(1.0f));
+  EXPECT_EQ(test::linearSample(rows, kSize - 1, kSize - 1, 1), glm::vec3(0.0f));
 }
 
 TEST(BtfWriter, WritesEqualBytesForEqualInput) {

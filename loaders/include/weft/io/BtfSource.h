@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "weft/core/Color.h"
 #include "weft/core/Result.h"
+#include "weft/io/SampleRows.h"
 
 namespace weft {
 
@@ -19,31 +19,29 @@ struct BtfDescription {
   int height = 0;
   std::vector<glm::vec3> views;   ///< unit, tangent frame (Direction.h), sorted by polar angle, then azimuth
   std::vector<glm::vec3> lights;  ///< likewise
-  Encoding encoding = Encoding::Linear;  ///< of the stored values; what the source hands out is linear
+  Encoding encoding = Encoding::Linear;  ///< of the stored values
+  bool storedAsBytes = false;            ///< 8 bits a channel; else linear floats
   bool cosineInData = true;              ///< values contain the foreshortening n.l, as photographs do
   std::string name;                      ///< for people: the file's or folder's name
 
   std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  /// Of the samples of one row, all its pairs, in SampleRows.
+  std::size_t rowBytes() const;
 };
 
 /// A measured or baked bidirectional texture function: how everything in Weft reads measurements.
 ///
-/// Values are linear RGB, 0..1 and above for HDR sources. Reading is `const`, and is parallel inside; calls
-/// may come from any thread.
+/// Reading is `const`, and is parallel inside; calls may come from any thread.
 class BtfSource {
  public:
   virtual ~BtfSource() = default;
 
   virtual const BtfDescription& description() const = 0;
 
-  /// All lights of one view: `out[light][row][column][rgb]`, row 0 at the top. For models that are fitted
-  /// view by view.
-  virtual Result<void> readView(int view, std::span<float> out) const = 0;
-
-  /// All pairs of some rows: `out[row][column][view][light][rgb]`. For models that need everything of a texel
-  /// at once. Costs a pass over the whole measurement, so ask for as many rows as memory allows
-  /// (rowsWithin()).
-  virtual Result<void> readRows(int firstRow, int rowCount, std::span<float> out) const = 0;
+  /// All pairs of some rows, row 0 at the top. Costs a pass over the whole measurement, so ask for as many
+  /// rows as memory allows (rowsWithin()). Rows that are read one after another into the same `out` share
+  /// its memory.
+  virtual Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const = 0;
 
   /// How many rows fit into `bytes` when read by readRows(); at least 1.
   int rowsWithin(std::size_t bytes) const;
