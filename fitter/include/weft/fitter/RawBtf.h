@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "weft/core/HemisphereTriangulation.h"
+#include "weft/core/Result.h"
+#include "weft/io/BtfSource.h"
+
+namespace weft {
+
+/// A whole measurement in memory, interpolated between its directions: what approximations are compared with
+/// where nothing was measured. Immutable, thread safe.
+///
+/// A value is the mean of 9 measured pairs, those of the three views and three lights around the directions
+/// (HemisphereTriangulation). Lights are interpolated as if measured without the foreshortening n.l, which is
+/// put back for the direction asked for: so a white Lambertian surface stays one between its lights, and all
+/// fade to the terminator below the outermost of them. Lights within 6 degrees of the horizon are taken as
+/// they are, since their values cannot be divided by n.l.
+class RawBtf {
+ public:
+  /// Reads all rows, as many bytes as they have (BtfDescription::rowBytes()). Fails as reading does, and on
+  /// directions that cannot be triangulated.
+  static Result<RawBtf> read(const BtfSource& source);
+
+  const BtfDescription& description() const { return description_; }
+  /// The measured pairs.
+  const SampleRows& samples() const { return samples_; }
+
+  /// Linear RGB of texel (x, y), n.l included; 0 for light below the horizon. Numbers in the measurement that
+  /// are none count as 0.
+  glm::vec3 evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const;
+
+ private:
+  BtfDescription description_;
+  SampleRows samples_;
+  HemisphereTriangulation views_;
+  HemisphereTriangulation lights_;
+};
+
+}  // namespace weft

@@ -1,0 +1,111 @@
+#include "weft/fitter/RawBtf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "MemoryBtf.h"
+#include "TestSupport.h"
+#include "weft/core/Direction.h"
+
+namespace weft {
+namespace {
+
+using test::MemoryBtf;
+using test::valueOf;
+
+// Nothing about it is symmetric, and it is as rough as a measurement.
+glm::vec3 rough(int x, int y, glm::vec3 view, glm::vec3 light) {
+  return glm::vec3(0.5f + 0.3f * std::sin(40.0f * light.x + static_cast<float>(x)),
+                   0.5f + 0.2f * view.x + 0.1f * static_cast<float>(y), 0.4f + 0.3f * light.y * view.y);
+}
+
+glm::vec3 randomDirection(std::mt19937& random, double lowest, double highest) {
+  std::uniform_real_distribution<double> theta(lowest, highest), phi(0.0, 360.0);
+  return directionFromDegrees(theta(random), phi(random));
+}
+
+void expectNear(glm::vec3 actual, glm::vec3 expected, float tolerance) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance);
+}
+
+TEST(RawBtf, GivesTheMeasurementWhereItWasMeasured) {
+  const MemoryBtf source(3, 2,
+                         [](int x, int y, glm::vec3 v, glm::vec3 l) { return l.z * rough(x, y, v, l); });
+  const RawBtf btf = valueOf(RawBtf::read(source));
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x)
+      for (const glm::vec3 view : source.description().views)
+        for (const glm::vec3 light : source.description().lights)
+          expectNear(btf.evaluate(x, y, light, view), light.z * rough(x, y, view, light), 1e-4f);
+}
+
+TEST(RawBtf, InterpolatesLinearlyInTheParabolicPlane) {
+  // Linear in the parabolic coordinates of view and light, so that interpolation is exact within the hulls.
+  const auto linear = [](int, int, glm::vec3 v, glm::vec3 l) {
+    const glm::vec2 p = parabolicFromDirection(v), q = parabolicFromDirection(l);
+    return glm::vec3(1.0f + p.x - 0.5f * p.y + 0.3f * q.x + 0.8f * q.y, (1 + p.x) * (2 + q.y), 2 + q.x);
+  };
+  std::mt19937 random(1);
+  for (const bool cosine : {true, false}) {
+    const MemoryBtf source(
+        1, 1,
+        [&](int x, int y, glm::vec3 v, glm::vec3 l) { return (cosine ? l.z : 1.0f) * linear(x, y, v, l); },
+        cosine);
+    const RawBtf btf = valueOf(RawBtf::read(source));
+    for (int i = 0; i < 200; ++i) {
+      const glm::vec3 view = randomDirection(random, 0.0, 74.0), light = randomDirection(random, 0.0, 74.0);
+      expectNear(btf.evaluate(0, 0, light, view), light.z * linear(0, 0, view, light), 1e-4f);
+    }
+  }
+}
+
+TEST(RawBtf, AWhiteSurfaceIsWhiteBetweenAndBeyondItsDirections) {
+  const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
+  const RawBtf btf = valueOf(RawBtf::read(source));
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const glm::vec3 view = randomDirection(random, 0.0, 95.0), light = randomDirection(random, 0.0, 90.0);
+    expectNear(btf.evaluate(0, 0, light, view), glm::vec3(light.z), 1e-5f);
+  }
+  expectNear(btf.evaluate(0, 0, {0.8f, 0, -0.6f}, {0, 0, 1}), glm::vec3(0.0f), 0.0f);
+}
+
+TEST(RawBtf, BelowTheLowestLightsItFadesAtTheirAzimuth) {
+  const MemoryBtf source(1, 1,
+                         [](int x, int y, glm::vec3 v, glm::vec3 l) { return l.z * rough(x, y, v, l); });
+  const RawBtf btf = valueOf(RawBtf::read(source));
+  for (const double phi : {0.0, 45.0, 345.0}) {  // of measured lights
+    const glm::vec3 ring = directionFromDegrees(75.0, phi), low = directionFromDegrees(87.0, phi);
+    expectNear(btf.evaluate(0, 0, low, {0, 0, 1}), low.z * rough(0, 0, {0, 0, 1}, ring), 1e-4f);
+  }
+}
+
+TEST(RawBtf, LightsOnTheHorizonAreNotDividedByTheirCosine) {
+  MemoryBtf source(1, 1,
+                   [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z > 0.1f ? l.z : 0.01f); });
+  source.description().lights = {{0, 0, 1}};
+  for (int i = 0; i < 8; ++i) source.description().lights.push_back(directionFromDegrees(90.0, 45.0 * i));
+  for (glm::vec3& light : source.description().lights) light.z = std::max(light.z, 0.0f);
+  const RawBtf btf = valueOf(RawBtf::read(source));
+  for (double theta = 0.0; theta < 90.0; theta += 5.0) {
+    const float value = btf.evaluate(0, 0, directionFromDegrees(theta, 20.0), {0, 0, 1}).x;
+    EXPECT_GE(value, 0.0f);
+    EXPECT_LE(value, 1.0f);
+  }
+  EXPECT_NEAR(btf.evaluate(0, 0, directionFromDegrees(89.9, 45.0), {0, 0, 1}).x, 0.01f, 1e-3f);
+}
+
+TEST(RawBtf, NumbersThatAreNoneCountAsBlack) {
+  const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) {
+    return l.z == 1.0f ? glm::vec3(std::numeric_limits<float>::quiet_NaN()) : glm::vec3(l.z);
+  });
+  const RawBtf btf = valueOf(RawBtf::read(source));
+  expectNear(btf.evaluate(0, 0, {0, 0, 1}, {0, 0, 1}), glm::vec3(0.0f), 0.0f);
+  EXPECT_GT(btf.evaluate(0, 0, directionFromDegrees(7.0, 0.0), {0, 0, 1}).x, 0.2f);
+}
+
+}  // namespace
+}  // namespace weft
