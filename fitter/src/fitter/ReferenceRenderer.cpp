@@ -201,7 +201,7 @@ glm::vec4 ReferenceRenderer::Tracer::radiance(glm::vec3 origin, glm::vec3 direct
     const glm::vec3 l = frame.of(toLight);
     if (!(l.z > 0.0f)) continue;
     if (shot.shadows && shadowed(aboveSurface, toLight, point ? std::sqrt(squared) : kInfinity)) continue;
-    sum += light.intensity / (point ? squared : 1.0f) * material.value(x, y, view, l);
+    sum += light.intensity / (point ? squared : 1.0f) * material.value(x, y, l, view);
   }
   return glm::vec4(sum / kPi, 1.0f);
 }

@@ -57,7 +57,7 @@ ReferenceMesh sphere(int rings) {
 }
 
 ReferenceMaterial lambertian(glm::vec3 albedo) {
-  return {.value = [albedo](int, int, glm::vec3, glm::vec3 light) { return light.z * albedo; }};
+  return {.value = [albedo](int, int, glm::vec3 light, glm::vec3) { return light.z * albedo; }};
 }
 
 FloatImage rendered(ReferenceMesh mesh, const ReferenceShot& shot, const ReferenceMaterial& material) {
@@ -153,7 +153,7 @@ TEST(ReferenceRenderer, TexelsAreThoseOfTheImageSeenFromTheFront) {
 // A relief has a view and a light of its own at every texel: nothing of it is symmetric.
 ReferenceMaterial relief(int width, int height) {
   ReferenceMaterial material{.width = width, .height = height};
-  material.value = [](int x, int y, glm::vec3 view, glm::vec3 light) {
+  material.value = [](int x, int y, glm::vec3 light, glm::vec3 view) {
     return glm::vec3(1.0f + 0.3f * light.x + 0.2f * view.y, 0.2f * static_cast<float>(x) + 0.1f * view.x,
                      0.3f * static_cast<float>(y) + light.y);
   };

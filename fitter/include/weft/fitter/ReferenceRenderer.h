@@ -35,7 +35,7 @@ struct ReferenceMaterial {
   glm::vec2 repetitions{1.0f};  ///< per unit of texture coordinates
   /// Linear RGB of texel (x, y) for unit directions of its tangent frame, n.l included: 1 is a white
   /// Lambertian surface lit head-on. light.z > 0; called from many threads at once.
-  std::function<glm::vec3(int x, int y, glm::vec3 view, glm::vec3 light)> value{};
+  std::function<glm::vec3(int x, int y, glm::vec3 light, glm::vec3 view)> value{};
 };
 
 struct ReferenceLight {
