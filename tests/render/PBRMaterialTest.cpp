@@ -192,7 +192,7 @@ TEST_F(PBRMaterialTest, GivesBackNoMoreLightThanItGets) {
 /// Value 1 at every angle: a white Lambertian surface.
 std::shared_ptr<const BTFMaterial> whiteBtf() {
   const auto model = test::valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
-  FloatImage shared(1, 1, model->sharedChannels()), views(1, 1, model->viewChannels(), 1);
+  FloatImage shared(1, 1, model->sharedChannels()), views(1, 1, model->layerChannels(), 1);
   for (int channel = 0; channel < 3; ++channel) shared.at(0, 0, channel) = 1.0f;
   views.at(0, 0, 5) = 1.0f;
   ReflectanceFieldDescription description;
