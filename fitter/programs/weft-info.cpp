@@ -78,7 +78,9 @@ int main(int argc, char** argv) {
   weft::Tool tool({"weft-info", "Says what a measured BTF or a fitted reflectance field is.",
                    "weft-info wool.rf.exr --json -", WEFT_VERSION});
   std::filesystem::path file;
-  tool.options().add_option("FILE", file, "a folder or zip of angle-named images, or a .rf.exr")->required();
+  tool.options()
+      .add_option("FILE", file, "a folder or zip of angle-named images, an .lp with its images, or a .rf.exr")
+      ->required();
   return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {
     WEFT_TRY(const Json json, describeFile(file));
     if (!tool.jsonOnStdout()) print(json, "");

@@ -96,6 +96,22 @@ TEST(WeftInfo, DescribesAFolder) {
   EXPECT_EQ(info.at("lights"), 1);
 }
 
+TEST(WeftInfo, DescribesALightList) {
+  const fs::path folder = test::testFolder();
+  requireDone(writePng(folder / "a.png", Image(3, 2, 3)));
+  const fs::path list = folder / "coin.lp";
+  std::ofstream(list) << "1\na.png 0 0 2\n";
+  const ProgramRun run = runProgram("weft-info", {list, "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json expected = {
+      {"kind", "btf"},      {"name", "coin"},     {"width", 3},
+      {"height", 2},        {"views", 1},         {"lights", 1},
+      {"encoding", "srgb"}, {"has_cosine", true}, {"bytes", {{"file", fs::file_size(list)}}}};
+  EXPECT_EQ(json::parse(run.out), expected);
+  std::ofstream(list) << "2\na.png 0 0 2\n";
+  expectRefused(runProgram("weft-info", {list}), "coin.lp: line 1 counts 2 lights, 1 are listed");
+}
+
 TEST(WeftInfo, DescribesAReflectanceField) {
   const fs::path file = fieldFile();
   const fs::path report = file.parent_path() / "report.json";

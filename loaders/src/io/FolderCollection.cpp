@@ -33,7 +33,11 @@ Result<std::unique_ptr<FileCollection>> openFolder(const fs::path& path) {
     if (!entry->is_directory(error)) names.push_back(entry->path().lexically_relative(path).generic_string());
   if (error) return fail("the folder cannot be read: " + error.message(), path.string());
   std::sort(names.begin(), names.end());
-  return std::make_unique<FolderCollection>(path, std::move(names));
+  return listedFiles(path, std::move(names));
+}
+
+std::unique_ptr<FileCollection> listedFiles(fs::path folder, std::vector<std::string> names) {
+  return std::make_unique<FolderCollection>(std::move(folder), std::move(names));
 }
 
 }  // namespace weft

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "FileCollection.h"
-#include "weft/core/Image.h"
 #include "weft/io/BtfSource.h"
 
 namespace weft {
 
-/// A BTF stored as one 8-bit image a pair of directions, with the angles in the image's name: UBO2003 and
-/// UTIA.
+/// A BTF with one 8-bit image a pair of directions.
 class ImageBtfSource : public BtfSource {
  public:
-  /// `where` names the collection in failures, `name` the material.
-  static Result<std::unique_ptr<ImageBtfSource>> create(std::unique_ptr<FileCollection> files,
-                                                        std::string where, std::string name);
+  /// `description` lacks the size, which the first image has; `fileOfPair[view][light]` are indices into
+  /// `files`; `where` names the measurement in failures.
+  static Result<std::unique_ptr<BtfSource>> create(BtfDescription description,
+                                                   std::unique_ptr<FileCollection> files,
+                                                   std::vector<int> fileOfPair, std::string where);
 
   const BtfDescription& description() const override { return description_; }
   Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const override;
@@ -24,12 +25,11 @@ class ImageBtfSource : public BtfSource {
   ImageBtfSource() = default;
 
   std::string whereOf(int file) const;
-  Result<Image> readPair(std::size_t pair) const;
 
-  std::unique_ptr<FileCollection> files_;
-  std::string where_;
   BtfDescription description_;
-  std::vector<int> fileOfPair_;  ///< [view][light]
+  std::unique_ptr<FileCollection> files_;
+  std::vector<int> fileOfPair_;
+  std::string where_;
 };
 
 }  // namespace weft

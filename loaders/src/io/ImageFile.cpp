@@ -58,6 +58,13 @@ Result<void> checkSize(std::int64_t width, std::int64_t height, const std::strin
               fmt::format("at most {} a side and {} in all", kLargestSide, kMostPixels));
 }
 
+Result<void> checkSameSize(ImageSize actual, ImageSize expected, const std::string& where) {
+  if (actual.width == expected.width && actual.height == expected.height) return {};
+  return fail(fmt::format("the image has {} x {} pixels, the others have {} x {}", actual.width,
+                          actual.height, expected.width, expected.height),
+              where);
+}
+
 tl::unexpected<Error> notAnImage(const std::string& where) {
   return fail("this is neither a JPEG nor a PNG", where);
 }
@@ -80,13 +87,22 @@ Result<JpegHeader> readJpegHeader(tjhandle decoder, Bytes bytes, const std::stri
   return header;
 }
 
+Result<void> decodePixels(tjhandle decoder, const JpegHeader& header, Bytes bytes, TJPF format,
+                          std::uint8_t* pixels, const std::string& where) {
+  if (tjDecompress2(decoder, bytes.data(), bytes.size(), pixels, header.width, 0, header.height, format,
+                    TJFLAG_LIMITSCANS) != 0)
+    return fail(fmt::format("the JPEG is damaged: {}", tjGetErrorStr2(decoder)), where);
+  return {};
+}
+
+// Every image gets a decoder of its own: one that is used again would lend its tables to an image that lacks
+// them, so that the result depended on what was decoded before. It costs 2 % of decoding 256 x 256 pixels.
 Result<Image> decodeJpeg(Bytes bytes, const std::string& where) {
   const TurboJpeg decoder(tjInitDecompress());
   WEFT_TRY(const JpegHeader header, readJpegHeader(decoder.get(), bytes, where));
   Image image(header.width, header.height, header.grey ? 1 : 3);
-  if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), image.bytes.data(), image.width, 0,
-                    image.height, header.grey ? TJPF_GRAY : TJPF_RGB, TJFLAG_LIMITSCANS) != 0)
-    return fail(fmt::format("the JPEG is damaged: {}", tjGetErrorStr2(decoder.get())), where);
+  WEFT_TRY_VOID(decodePixels(decoder.get(), header, bytes, header.grey ? TJPF_GRAY : TJPF_RGB,
+                             image.bytes.data(), where));
   return image;
 }
 
@@ -125,6 +141,25 @@ Result<Image> decodeImage(Bytes bytes, const std::string& where) {
   if (isJpeg(bytes)) return decodeJpeg(bytes, where);
   if (isPng(bytes)) return decodePng(bytes, where);
   return notAnImage(where);
+}
+
+Result<void> decodeRgb(Bytes bytes, ImageSize size, std::span<std::uint8_t> rgb, const std::string& where) {
+  WEFT_EXPECT(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height),
+              "rgb holds the image");
+  if (isJpeg(bytes)) {
+    const TurboJpeg decoder(tjInitDecompress());
+    WEFT_TRY(const JpegHeader header, readJpegHeader(decoder.get(), bytes, where));
+    WEFT_TRY_VOID(checkSameSize({header.width, header.height}, size, where));
+    return decodePixels(decoder.get(), header, bytes, TJPF_RGB, rgb.data(), where);
+  }
+  WEFT_TRY(const ImageSize actual, imageSize(bytes, where));
+  WEFT_TRY_VOID(checkSameSize(actual, size, where));
+  WEFT_TRY(const Image image, decodeImage(bytes, where));
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::uint8_t* from = image.bytes.data();
+  for (std::size_t i = 0; i < rgb.size(); i += 3, from += channels)
+    for (std::size_t c = 0; c < 3; ++c) rgb[i + c] = from[channels < 3 ? 0 : c];
+  return {};
 }
 
 Result<Image> readImage(const std::filesystem::path& path) {

@@ -47,9 +47,9 @@ class BtfSource {
   int rowsWithin(std::size_t bytes) const;
 };
 
-/// Opens a folder or a zip of angle-named images (UBO2003's names). Reads names and one image header, no
-/// pixels. Fails on a missing or duplicate pair of directions, an empty folder or a broken zip, naming file
-/// and reason.
+/// Opens a folder or a zip of angle-named images (UBO2003's names), or a `.lp` (docs/conventions.md) with its
+/// images, also as the folder that holds it. Reads names and one image header, no pixels. Fails on missing or
+/// duplicate directions, an empty folder or a broken zip, naming file and reason.
 Result<std::unique_ptr<BtfSource>> openBtf(const std::filesystem::path& path);
 
 }  // namespace weft

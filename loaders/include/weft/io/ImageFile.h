@@ -25,6 +25,11 @@ Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes, const std::stri
 /// pixels a side or 2^26 in all, before memory is taken.
 Result<Image> decodeImage(std::span<const std::uint8_t> bytes, const std::string& where);
 
+/// Decodes a JPEG or PNG that must be of this size to `rgb[row][column][rgb]`: grey is repeated, alpha
+/// dropped. Fails like decodeImage().
+Result<void> decodeRgb(std::span<const std::uint8_t> bytes, ImageSize size, std::span<std::uint8_t> rgb,
+                       const std::string& where);
+
 /// decodeImage() of a file.
 Result<Image> readImage(const std::filesystem::path& path);
 
