@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 #include "weft/io/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/tool/Tool.h"
@@ -20,8 +20,11 @@ struct Arguments {
   std::filesystem::path input;
   std::filesystem::path output;
   std::string precision = "half";
-  std::string cosine = "out";
+  std::string cosine;
   std::string diffuse = "shared";
+  std::string color = "luminance";
+  std::string space;
+  bool resume = false;
   std::vector<int> crop;
   double memoryGibibytes = 4.0;
   double maximumError = 0.0;  // 0: no bound
@@ -35,8 +38,13 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
       ->check(CLI::IsMember(ModelRegistry::builtin().names()))
       ->capture_default_str();
-  app.add_option("--lobes", a.fit.model.lobes, "lobes a view, of rfnl: 1 to 4")
-      ->check(CLI::Range(1, 4))
+  app.add_option("--lobes", a.fit.model.lobes, "lobes of the models that have lobes: rfnl and lfnl 1 to 4")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  app.add_option("--color", a.color,
+                 "fit luminance, which a base colour a texel turns into RGB, or each colour channel (three "
+                 "times the numbers)")
+      ->check(CLI::IsMember({"luminance", "rgb"}))
       ->capture_default_str();
   app.add_option(
          "--rho-d", a.diffuse,
@@ -44,9 +52,14 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"shared", "per-view"}))
       ->capture_default_str();
   app.add_option("--cosine", a.cosine,
-                 "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do")
-      ->check(CLI::IsMember({"out", "in"}))
-      ->capture_default_str();
+                 "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do "
+                 "[out; in for ptm and --space stored]")
+      ->check(CLI::IsMember({"out", "in"}));
+  app.add_option(
+         "--space", a.space,
+         "linear: minimise errors of linear values, weighted as a display shows them; stored: plain errors "
+         "of the stored values, as the papers do [linear; stored for ptm]")
+      ->check(CLI::IsMember({"linear", "stored"}));
   app.add_option("--float", a.precision, "precision of the parameters in the file")
       ->check(CLI::IsMember({"half", "float"}))
       ->capture_default_str();
@@ -54,24 +67,42 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--memory", a.memoryGibibytes, "GiB for the samples of the rows that are fitted at once")
       ->check(CLI::Range(0.0625, 1024.0))
       ->capture_default_str();
+  app.add_option("--hold-out", a.fit.holdOutLights,
+                 "leave about every Nth light out, and report errors on it")
+      ->check(CLI::Range(2, 1000));
+  app.add_option("--hold-out-views", a.fit.holdOutViews, "leave about every Nth view out, likewise")
+      ->check(CLI::Range(2, 1000));
+  app.add_flag(
+      "--resume", a.resume,
+      "go on with a fit that was stopped: finished rows are kept in OUTPUT.parts until the file is there");
   app.add_option("--max-error", a.maximumError,
                  "end with exit code 3 if the average eps of stored luminance is above this")
       ->check(CLI::PositiveNumber);
 }
 
+// The folder of finished rows.
+std::filesystem::path partsOf(const std::filesystem::path& output) {
+  std::filesystem::path parts = output;
+  return parts += ".parts";
+}
+
 FitOptions fitOptions(const Arguments& a) {
   FitOptions options = a.fit;
+  const std::string space = !a.space.empty() ? a.space : a.fit.model.name == "ptm" ? "stored" : "linear";
+  const std::string cosine = !a.cosine.empty() ? a.cosine : space == "stored" ? "in" : "out";
   options.model.diffuseAlbedo = a.diffuse == "shared" ? DiffuseAlbedo::Shared : DiffuseAlbedo::PerView;
-  options.cosineInModel = a.cosine == "in";
+  options.model.color = a.color == "rgb" ? FitColor::Rgb : FitColor::Luminance;
+  options.cosineInModel = cosine == "in";
+  options.space = space == "stored" ? FitSpace::Stored : FitSpace::Linear;
   options.precision = a.precision == "half" ? Precision::Half : Precision::Float;
   options.memory = static_cast<std::size_t>(a.memoryGibibytes * 1024.0 * 1024.0 * 1024.0);
   if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
+  options.partsFolder = partsOf(a.output);
   return options;
 }
 
-void printErrors(const FitErrors& errors) {
-  fmt::print("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "eps (Meseth eq. 2)", "avg", "min", "max", "95 %",
-             "rmse");
+void printErrors(const char* title, const FitErrors& errors) {
+  fmt::print("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "avg", "min", "max", "95 %", "rmse");
   for (const auto& [label, space, measure] :
        {std::tuple("stored luminance", ErrorSpace::Stored, ErrorMeasure::Luminance),
         std::tuple("stored RGB", ErrorSpace::Stored, ErrorMeasure::Rgb),
@@ -90,28 +121,37 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
       arguments.output.has_parent_path() ? arguments.output.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))  // said before hours of fitting, not after
     return fail("no such folder", folder.string(), "create it first");
+  if (arguments.space == "stored" && arguments.cosine == "out")
+    return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
   const FitOptions options = fitOptions(arguments);
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
   const BtfDescription& measured = source->description();
   const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
                                                 static_cast<std::size_t>(options.crop->height)
                                           : measured.texels();
-  WEFT_TRY(
-      const FitResult result,
-      fitReflectanceField(*source, options, tool.progress("fitting", static_cast<double>(texels), "texels")));
+  WEFT_TRY(FieldFit fieldFit, FieldFit::create(*source, options));
+  if (arguments.resume)
+    WEFT_TRY_VOID(fieldFit.resume());
+  else
+    fieldFit.removeParts();
+  WEFT_TRY_VOID(fieldFit.fitRows(0, fieldFit.height(),
+                                 tool.progress("fitting", static_cast<double>(texels), "texels")));
+  WEFT_TRY(const FitResult result, fieldFit.finish());
   const auto startOfWriting = std::chrono::steady_clock::now();
   WEFT_TRY_VOID(writeReflectanceField(result.field, arguments.output));
+  fieldFit.removeParts();
   const double secondsWriting =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - startOfWriting).count();
 
-  Json report = Json::parse(toJson(result.errors));
+  Json report = Json::parse(toJson(result.errors, result.heldOut));
   report["model"] = result.field.model().description().name;
   report["lobes"] = result.field.model().description().lobes;
   report["rho_d"] = arguments.diffuse;
-  report["cosine"] = arguments.cosine;
+  report["color"] = arguments.color;
+  report["cosine"] = options.cosineInModel ? "in" : "out";
+  report["space"] = options.space == FitSpace::Linear ? "linear" : "stored";
   report["views"] = measured.views.size();
   report["lights"] = measured.lights.size();
-  report["held_out"] = nullptr;
   report["bytes"] = {{"file", std::filesystem::file_size(arguments.output)}, {"gpu", gpuBytes(result.field)}};
   report["seconds"] = {
       {"read", result.secondsReading}, {"fit", result.secondsFitting}, {"write", secondsWriting}};
@@ -122,7 +162,8 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
   if (!tool.quiet() && !tool.jsonOnStdout()) {
     fmt::print("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(), result.field.width(),
                result.field.height(), measured.views.size(), measured.lights.size());
-    printErrors(result.errors);
+    printErrors("eps (Meseth eq. 2)", result.errors);
+    if (result.heldOut) printErrors("of held-out pairs", *result.heldOut);
   }
   const double error = result.errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance).average;
   return arguments.maximumError > 0.0 && error > arguments.maximumError ? ExitCode::BoundMissed

@@ -9,7 +9,7 @@
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/core/ImageComparison.h"
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 #include "weft/io/ExrFile.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/reflectance/LayerLookup.h"

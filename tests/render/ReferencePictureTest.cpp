@@ -5,7 +5,7 @@
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/core/ImageComparison.h"
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 #include "weft/fitter/ReferenceRenderer.h"
 #include "weft/io/ExrFile.h"
 #include "weft/materials/BTFMaterial.h"

@@ -13,7 +13,7 @@
 #include "SomeViews.h"
 #include "weft/core/Direction.h"
 #include "weft/core/ImageComparison.h"
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 #include "weft/io/ExrFile.h"
 #include "weft/materials/BTFMaterial.h"
 #include "weft/scenegraph/Light.h"

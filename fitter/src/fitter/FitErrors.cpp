@@ -4,18 +4,40 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "weft/core/Color.h"
+
 namespace weft {
 namespace {
 
-void addSums(ErrorSums& luminanceSums, ErrorSums& rgbSums, glm::vec3 data, glm::vec3 model) {
-  const double luminanceError = luminance(data) - luminance(model);
-  luminanceSums.absolute += std::abs(luminanceError);
-  luminanceSums.squared += luminanceError * luminanceError;
-  for (int channel = 0; channel < 3; ++channel) {
-    const double error = data[channel] - model[channel];
-    rgbSums.absolute += std::abs(error) / 3.0;
-    rgbSums.squared += error * error / 3.0;
+// Sums over some pairs; floats suffice for the pairs of one view.
+struct SpaceSums {
+  float luminance = 0.0f, squaredLuminance = 0.0f, rgb = 0.0f, squaredRgb = 0.0f;
+};
+
+SpaceSums sumsOf(std::span<const glm::vec3> data, std::span<const glm::vec3> model) {
+  float luminanceSum = 0.0f;
+  float squaredLuminance = 0.0f;
+  float rgb = 0.0f;
+  float squaredRgb = 0.0f;
+#pragma omp simd reduction(+ : luminanceSum, squaredLuminance, rgb, squaredRgb)
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const float red = data[i].x - model[i].x;
+    const float green = data[i].y - model[i].y;
+    const float blue = data[i].z - model[i].z;
+    const float y = kLuminanceWeights.x * red + kLuminanceWeights.y * green + kLuminanceWeights.z * blue;
+    luminanceSum += std::abs(y);
+    squaredLuminance += y * y;
+    rgb += std::abs(red) + std::abs(green) + std::abs(blue);
+    squaredRgb += red * red + green * green + blue * blue;
   }
+  return {luminanceSum, squaredLuminance, rgb / 3.0f, squaredRgb / 3.0f};
+}
+
+void addSums(std::array<ErrorSums, 2>& to, const SpaceSums& sums) {
+  to[0].absolute += sums.luminance;
+  to[0].squared += sums.squaredLuminance;
+  to[1].absolute += sums.rgb;
+  to[1].squared += sums.squaredRgb;
 }
 
 ErrorStatistics statisticsOf(std::span<const TexelErrors> texels, std::size_t space, std::size_t measure,
@@ -41,17 +63,18 @@ ErrorStatistics statisticsOf(std::span<const TexelErrors> texels, std::size_t sp
 
 }  // namespace
 
-void TexelErrors::add(glm::vec3 data, glm::vec3 model, Encoding encoding, bool isGrazing) {
-  const glm::vec3 storedData = encode(encoding, data);
-  const glm::vec3 storedModel = encode(encoding, model);
-  addSums(sums[0][0], sums[0][1], storedData, storedModel);
-  addSums(sums[1][0], sums[1][1], data, model);
-  ++pairs;
+void TexelErrors::add(const PairValues& data, const PairValues& model, bool isGrazing) {
+  const SpaceSums stored = sumsOf(data.stored, model.stored);
+  addSums(sums[0], stored);
+  addSums(sums[1], sumsOf(data.linear, model.linear));
+  pairs += data.linear.size();
   if (isGrazing) {
-    grazingAbsolute += std::abs(luminance(storedData) - luminance(storedModel));
-    ++grazingPairs;
+    grazingAbsolute += stored.luminance;
+    grazingPairs += data.linear.size();
   }
-  peak = std::max({peak, data.x, data.y, data.z});
+  float largest = 0.0f;
+  for (glm::vec3 value : data.linear) largest = std::max({largest, value.x, value.y, value.z});
+  peak = std::max(peak, double{largest});
 }
 
 FitErrors summarize(std::span<const TexelErrors> texels) {
@@ -60,21 +83,23 @@ FitErrors summarize(std::span<const TexelErrors> texels) {
   if (texels.empty()) return errors;
   double grazing = 0.0;
   double grazingPairs = 0.0;
-  float peak = 0.0f;
+  double peak = 0.0;
   for (const TexelErrors& texel : texels) {
     grazing += texel.grazingAbsolute;
     grazingPairs += static_cast<double>(texel.grazingPairs);
     peak = std::max(peak, texel.peak);
   }
   if (grazingPairs > 0.0) errors.grazing = grazing / grazingPairs;
-  if (peak > 0.0f) errors.psnrPeak[1] = peak;
+  if (peak > 0.0) errors.psnrPeak[1] = peak;
   for (std::size_t space = 0; space < 2; ++space)
     for (std::size_t measure = 0; measure < 2; ++measure)
       errors.statistics[space][measure] = statisticsOf(texels, space, measure, errors.psnrPeak[space]);
   return errors;
 }
 
-std::string toJson(const FitErrors& errors) {
+namespace {
+
+nlohmann::ordered_json jsonOf(const FitErrors& errors) {
   nlohmann::ordered_json json;
   constexpr std::array spaces{"stored", "linear"};
   constexpr std::array measures{"luminance", "rgb"};
@@ -90,6 +115,14 @@ std::string toJson(const FitErrors& errors) {
   }
   json["epsilon"]["grazing"]["stored"]["luminance"] = errors.grazing;
   json["texels"] = errors.texels;
+  return json;
+}
+
+}  // namespace
+
+std::string toJson(const FitErrors& errors, const std::optional<FitErrors>& heldOut) {
+  nlohmann::ordered_json json = jsonOf(errors);
+  json["held_out"] = heldOut ? jsonOf(*heldOut) : nlohmann::ordered_json();
   return json.dump();
 }
 

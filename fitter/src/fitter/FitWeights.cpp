@@ -3,40 +3,87 @@
 #include <algorithm>
 #include <cmath>
 
-#include "weft/core/Color.h"
+#include "BatchEncoding.h"
 
 namespace weft {
+namespace {
 
-float displayWeight(float luminance) {
+// The square of displayWeight().
+float squaredWeight(float value) {
   // The slope of y^(1/2.2) is y^-0.55; 0.01 is about where a display's black begins.
-  return 1.0f / std::sqrt(std::max(luminance, 0.0f) + 0.01f);
+  return 1.0f / (std::max(value, 0.0f) + 0.01f);
 }
 
-std::vector<float> displayWeights(std::span<const float> luminance) {
-  std::vector<float> weights;
-  weights.reserve(luminance.size());
-  for (float value : luminance) weights.push_back(displayWeight(value));
-  return weights;
-}
-
-glm::vec3 fitBaseColor(std::span<const glm::vec3> samples) {
+template <class Weight>
+glm::vec3 baseColorOf(std::span<const glm::vec3> samples, const Weight& weight) {
   glm::dvec3 weighted(0.0);
   double squares = 0.0;
   for (glm::vec3 rgb : samples) {
-    const double y = luminance(rgb);
-    const double weight = displayWeight(static_cast<float>(y));
-    weighted += weight * weight * y * glm::dvec3(rgb);
-    squares += weight * weight * y * y;
+    const float y = luminance(rgb);
+    const float factor = weight(y) * y;
+    weighted += glm::dvec3(factor * rgb);
+    squares += double{factor * y};
   }
   return squares > 0.0 ? glm::vec3(weighted / squares) : glm::vec3(1.0f);
 }
 
-float targetLuminance(glm::vec3 sample, glm::vec3 baseColor) {
-  const float linear = luminance(sample);
-  if (linear <= 0.0f) return 0.0f;
-  const float displayed =
-      luminance(encode(Encoding::Gamma22, sample)) / luminance(encode(Encoding::Gamma22, baseColor));
-  return std::sqrt(linear * decode(Encoding::Gamma22, displayed));
+}  // namespace
+
+float displayWeight(float value) {
+  return std::sqrt(squaredWeight(value));
+}
+
+std::vector<float> displayWeights(std::span<const float> values) {
+  std::vector<float> weights;
+  weights.reserve(values.size());
+  for (float value : values) weights.push_back(displayWeight(value));
+  return weights;
+}
+
+glm::vec3 fitBaseColor(std::span<const glm::vec3> samples) {
+  return baseColorOf(samples, squaredWeight);
+}
+
+glm::vec3 fitPlainBaseColor(std::span<const glm::vec3> samples) {
+  return baseColorOf(samples, [](float) { return 1.0f; });
+}
+
+FitTargets luminanceTargets(std::span<const glm::vec3> linear, std::span<const glm::vec3> displayed,
+                            Encoding display, glm::vec3 baseColor) {
+  const float baseDisplayed = luminance(encode(display, baseColor));
+  FitTargets targets;
+  targets.values.reserve(linear.size());
+  for (glm::vec3 sample : displayed) targets.values.push_back(luminance(sample) / baseDisplayed);
+  decodeAll(display, targets.values);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    targets.values[i] = std::sqrt(std::max(luminance(linear[i]), 0.0f) * targets.values[i]);
+  targets.weights = displayWeights(targets.values);
+  return targets;
+}
+
+FitTargets plainLuminanceTargets(std::span<const glm::vec3> stored) {
+  FitTargets targets;
+  targets.values.reserve(stored.size());
+  for (glm::vec3 sample : stored) targets.values.push_back(luminance(sample));
+  targets.weights.assign(stored.size(), 1.0f);
+  return targets;
+}
+
+FitTargets channelTargets(std::span<const glm::vec3> samples, int channel, glm::vec3 baseColor,
+                          bool weighted) {
+  FitTargets targets;
+  const float base = baseColor[channel];
+  for (glm::vec3 sample : samples) {
+    const float value = sample[channel];
+    targets.values.push_back(base > 0.0f ? value / base : 0.0f);
+    targets.weights.push_back(weighted ? displayWeight(value) * base : base);
+  }
+  return targets;
+}
+
+std::span<float> floatsOf(std::vector<glm::vec3>& colors) {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  return {&colors.data()->x, 3 * colors.size()};
 }
 
 }  // namespace weft

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 
+#include "ExchangedFitter.h"
 #include "weft/core/Direction.h"
 
 namespace weft {
@@ -256,10 +257,14 @@ Result<std::unique_ptr<TexelFitter>> RfnlFitter::create(const FitProblem& proble
   const ModelDescription description = problem.model->description();
   const std::size_t unknowns = 4 * static_cast<std::size_t>(description.lobes) + 1;
   if (problem.lights.size() < unknowns)
-    return fail(fmt::format("{} lights do not determine the {} numbers of a view of rfnl",
+    return fail(fmt::format("{} directions do not determine the {} numbers of a layer of lobes",
                             problem.lights.size(), unknowns),
                 {}, "measure more lights, or fit fewer lobes");
   return std::unique_ptr<TexelFitter>(new RfnlFitter(problem));
+}
+
+Result<std::unique_ptr<TexelFitter>> RfnlFitter::createForLights(const FitProblem& problem) {
+  return ExchangedFitter::create(problem, RfnlFitter::create);
 }
 
 RfnlFitter::RfnlFitter(const FitProblem& problem)

@@ -1,16 +1,18 @@
 #pragma once
 
-#include "weft/fitter/Fitter.h"
 #include "weft/fitter/LobeSolver.h"
+#include "weft/fitter/TexelFitter.h"
 
 namespace weft {
 
-/// Fits `rfnl`: the lobes of each view from several starts (LobeSolver.h), alternating with a closed-form
-/// diffuse albedo where the views share one.
+/// Fits `rfnl` and `lfnl`: the lobes of each view from several starts (LobeSolver.h), alternating with a
+/// closed-form diffuse albedo where the views share one.
 class RfnlFitter : public TexelFitter {
  public:
   /// Fails where there are fewer lights than parameters of a view.
   static Result<std::unique_ptr<TexelFitter>> create(const FitProblem& problem);
+  /// The same for `lfnl`, of which light and view are exchanged.
+  static Result<std::unique_ptr<TexelFitter>> createForLights(const FitProblem& problem);
 
   void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
            std::span<float> layers) const override;

@@ -2,24 +2,31 @@
 
 #include <Eigen/Core>
 
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/TexelFitter.h"
 
 namespace weft {
 
-/// Fits `rfp` view by view: a weighted linear least-squares problem with six unknowns.
+/// Fits `rfp`, `lfp` and `ptm` view by view: a linear least-squares problem with six unknowns.
 class RfpFitter : public TexelFitter {
  public:
   /// Fails where the lights do not determine the six coefficients: fewer than six, or on one conic.
   static Result<std::unique_ptr<TexelFitter>> create(const FitProblem& problem);
+  /// The same for `lfp`, of which light and view are exchanged.
+  static Result<std::unique_ptr<TexelFitter>> createForLights(const FitProblem& problem);
+  /// The same for `ptm`, which is refused for more views.
+  static Result<std::unique_ptr<TexelFitter>> createForOneView(const FitProblem& problem);
 
   void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
            std::span<float> layers) const override;
 
  private:
-  using Basis = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-  explicit RfpFitter(Basis basis) : basis_(std::move(basis)) {}
+  using Basis = Eigen::Matrix<float, 6, Eigen::Dynamic>;
+  RfpFitter(const Eigen::MatrixXd& basis, bool weighted);
 
-  Basis basis_;  ///< a row a light: what multiplies a0..a5
+  Basis basis_;                                        ///< a column a light: what multiplies a0..a5
+  Eigen::Matrix<float, 21, Eigen::Dynamic> products_;  ///< a column a light: products of two of them
+  Basis pseudoInverse_;                                ///< the same for every view where weights are equal
+  bool weighted_;
 };
 
 }  // namespace weft

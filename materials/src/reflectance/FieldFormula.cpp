@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "weft/core/Contract.h"
 
 namespace weft {
 namespace {
@@ -17,21 +16,24 @@ Result<void> checkDirections(const std::vector<glm::vec3>& directions, const std
   return {};
 }
 
-}  // namespace
-
-float lowestZ(std::span<const glm::vec3> directions) {
-  WEFT_EXPECT(!directions.empty(), "there are directions");
-  return std::ranges::min_element(directions, {}, &glm::vec3::z)->z;
+// Of the lights above the horizon; 0 where there are none.
+float lowestZ(const std::vector<glm::vec3>& lights) {
+  float lowest = 0.0f;
+  for (glm::vec3 light : lights)
+    if (light.z > 0.0f && (lowest == 0.0f || light.z < lowest)) lowest = light.z;
+  return std::min(lowest, 1.0f);  // of unit length but for rounding
 }
+
+}  // namespace
 
 Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel> model,
                                           const ReflectanceFieldDescription& description) {
   WEFT_TRY_VOID(checkDirections(description.views, "view"));
   WEFT_TRY_VOID(checkDirections(description.lights, "light"));
   FieldFormula formula;
-  formula.lowestLightZ_ = std::min(lowestZ(description.lights), 1.0f);  // of unit length but for rounding
+  formula.lowestLightZ_ = lowestZ(description.lights);
   if (description.hasCosine && formula.lowestLightZ_ <= 0.0f)
-    return fail("a field that contains n.l has a light on or below the horizon");
+    return fail("a field that contains n.l has no light above the horizon");
   const LayerDirections kind = model->layerDirections();
   if (kind != LayerDirections::None) {
     const auto& directions = kind == LayerDirections::Views ? description.views : description.lights;

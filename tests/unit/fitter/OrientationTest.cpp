@@ -16,7 +16,7 @@
 #include "SomeViews.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 
 namespace weft {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "weft/core/Color.h"
 
 namespace weft {
 
@@ -21,17 +21,23 @@ struct ErrorSums {
 enum class ErrorMeasure { Luminance, Rgb };
 enum class ErrorSpace { Stored, Linear };
 
-/// Errors of one texel over all its pairs (paper M eq. 2 before the division). RGB errors are means over the
+/// Values of some pairs, n.l included, linear and as the measurement stores them.
+struct PairValues {
+  std::span<const glm::vec3> linear;
+  std::span<const glm::vec3> stored;
+};
+
+/// Errors of one texel over its pairs (paper M eq. 2 before the division). RGB errors are means over the
 /// three channels.
 struct TexelErrors {
   std::array<std::array<ErrorSums, 2>, 2> sums{};  ///< [space][measure]
   double grazingAbsolute = 0.0;                    ///< stored luminance, theta_v >= 60 degrees
-  std::size_t pairs = 0;
-  std::size_t grazingPairs = 0;
-  float peak = 0.0f;  ///< the largest linear value of the data
+  std::uint64_t pairs = 0;
+  std::uint64_t grazingPairs = 0;
+  double peak = 0.0;  ///< the largest linear value of the data
 
-  /// Adds one pair: linear RGB with n.l of data and model, and what they are when stored.
-  void add(glm::vec3 data, glm::vec3 model, Encoding encoding, bool grazing);
+  /// Adds pairs of one view.
+  void add(const PairValues& data, const PairValues& model, bool isGrazing);
 };
 
 /// Average, extremes and 95th percentile over texels of eps (paper M eq. 2), and root mean square error over
@@ -58,8 +64,8 @@ struct FitErrors {
 /// Sums texels in their order, so that the result is the same for any number of threads.
 FitErrors summarize(std::span<const TexelErrors> texels);
 
-/// The fields `epsilon`, `rmse`, `psnr`, `psnr_peak` of `weft-fit --json` as JSON text, without time, host or
-/// path.
-std::string toJson(const FitErrors& errors);
+/// The fields `epsilon`, `rmse`, `psnr`, `psnr_peak`, `texels` of `weft-fit --json`, and the same again for
+/// held-out pairs as `held_out` (null without), as JSON text, without time, host or path.
+std::string toJson(const FitErrors& errors, const std::optional<FitErrors>& heldOut = {});
 
 }  // namespace weft

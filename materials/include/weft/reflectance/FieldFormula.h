@@ -25,15 +25,12 @@ struct ReflectanceFieldDescription {
   std::string fitReport;  ///< JSON text of the fit's errors, as weft-fit wrote it; may be empty
 };
 
-/// The smallest z of a set of directions.
-float lowestZ(std::span<const glm::vec3> directions);
-
 /// How the numbers of a texel become a value: the model, the cosine and the interpolation between layers. The
 /// CPU reference of shaders/btf.frag (paper M eq. 4). Immutable, thread safe.
 class FieldFormula {
  public:
-  /// Fails where the directions are none or not of unit length, or a model that contains n.l has lights on
-  /// the horizon alone.
+  /// Fails where the directions are none or not of unit length, or a model that contains n.l has no
+  /// light above the horizon.
   static Result<FieldFormula> create(std::shared_ptr<const ReflectanceModel> model,
                                      const ReflectanceFieldDescription& description);
 
@@ -42,7 +39,7 @@ class FieldFormula {
   int layerCount() const { return layerCount_; }
   /// Between the directions of the layers.
   const HemisphereTriangulation& triangulation() const { return triangulation_; }
-  /// The z of the outermost measured lights: where a model that has the cosine ends.
+  /// The z of the outermost measured lights above the horizon: where a model that has the cosine ends.
   float lowestLightZ() const { return lowestLightZ_; }
 
   /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.

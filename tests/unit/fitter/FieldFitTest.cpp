@@ -1,4 +1,4 @@
-#include "weft/fitter/Fitter.h"
+#include "weft/fitter/FieldFit.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -39,7 +39,7 @@ float twoLobes(glm::vec3 v, glm::vec3 l) {
          0.3f * std::pow(std::max(glm::dot(broad, l), 0.0f), 3.0f);
 }
 
-TEST(Fitter, RfpRecoversItsCoefficients) {
+TEST(FieldFit, RfpRecoversItsCoefficients) {
   const glm::vec3 color(0.5f, 0.9f, 0.2f);
   const MemoryBtf source(1, 1, [&](int, int, glm::vec3 v, glm::vec3 l) {
     return color * l.z *
@@ -60,7 +60,7 @@ TEST(Fitter, RfpRecoversItsCoefficients) {
   EXPECT_LT(epsilon(fit), 1e-5);
 }
 
-TEST(Fitter, RfnlRecoversTwoLobesAndTheSharedAlbedo) {
+TEST(FieldFit, RfnlRecoversTwoLobesAndTheSharedAlbedo) {
   const MemoryBtf source(1, 1,
                          [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });
   const FitResult fit = valueOf(fitReflectanceField(source, optionsFor("rfnl")));
@@ -72,7 +72,7 @@ TEST(Fitter, RfnlRecoversTwoLobesAndTheSharedAlbedo) {
   EXPECT_LT(epsilon(valueOf(fitReflectanceField(source, own))), 2e-3);
 }
 
-TEST(Fitter, MoreLobesFitBetter) {
+TEST(FieldFit, MoreLobesFitBetter) {
   const MemoryBtf source(1, 1,
                          [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });
   FitOptions one = optionsFor("rfnl");
@@ -83,7 +83,7 @@ TEST(Fitter, MoreLobesFitBetter) {
 
 // models.md, "Cosine": whether or not the data contain n.l, a white surface comes out as l.z, up to the
 // horizon.
-TEST(Fitter, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
+TEST(FieldFit, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
   for (const char* model : {"rfp", "rfnl"})
     for (bool cosineInData : {true, false}) {
       const MemoryBtf source(
@@ -103,7 +103,7 @@ TEST(Fitter, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
     }
 }
 
-TEST(Fitter, TheCosineMayStayInTheModel) {
+TEST(FieldFit, TheCosineMayStayInTheModel) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(0.5f * l.z); });
   FitOptions options = optionsFor("rfnl");
   options.cosineInModel = true;
@@ -114,7 +114,7 @@ TEST(Fitter, TheCosineMayStayInTheModel) {
               0.5 * std::cos(85 * M_PI / 180), 3e-3);
 }
 
-TEST(Fitter, LightFadesToTheTerminatorWithoutAStep) {
+TEST(FieldFit, LightFadesToTheTerminatorWithoutAStep) {
   const MemoryBtf source(1, 1,
                          [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });
   for (const char* model : {"rfp", "rfnl"})
@@ -129,7 +129,7 @@ TEST(Fitter, LightFadesToTheTerminatorWithoutAStep) {
     }
 }
 
-TEST(Fitter, BlackAndBrokenTexelsGiveFiniteNumbers) {
+TEST(FieldFit, BlackAndBrokenTexelsGiveFiniteNumbers) {
   const MemoryBtf source(3, 1, [](int x, int, glm::vec3, glm::vec3 l) {
     if (x == 0) return glm::vec3(0.0f);
     if (x == 1) return glm::vec3(std::numeric_limits<float>::quiet_NaN());
@@ -146,7 +146,7 @@ TEST(Fitter, BlackAndBrokenTexelsGiveFiniteNumbers) {
   }
 }
 
-TEST(Fitter, TooFewLightsAreRefused) {
+TEST(FieldFit, TooFewLightsAreRefused) {
   MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
   source.description().lights.resize(5);
   for (const char* model : {"rfp", "rfnl"}) {
@@ -156,7 +156,7 @@ TEST(Fitter, TooFewLightsAreRefused) {
   }
 }
 
-TEST(Fitter, CropsAreTheSameTexelsAndMustLieInside) {
+TEST(FieldFit, CropsAreTheSameTexelsAndMustLieInside) {
   const MemoryBtf source(4, 3, [](int x, int y, glm::vec3, glm::vec3 l) {
     return glm::vec3(l.z * static_cast<float>(1 + x + 4 * y) / 20.0f);
   });
@@ -176,7 +176,7 @@ TEST(Fitter, CropsAreTheSameTexelsAndMustLieInside) {
   }
 }
 
-TEST(Fitter, NeitherThreadsNorBlocksChangeTheResult) {
+TEST(FieldFit, NeitherThreadsNorBlocksChangeTheResult) {
   const auto uneven = [](int x, int y, glm::vec3 v, glm::vec3 l) {
     return glm::vec3(0.9f, 0.6f, 0.3f) * l.z * twoLobes(v, l) *
            (1.0f + 0.1f * std::sin(static_cast<float>(5 * x + 3 * y)));
@@ -198,7 +198,7 @@ TEST(Fitter, NeitherThreadsNorBlocksChangeTheResult) {
   EXPECT_EQ(parallel.field.description().fitReport, serial.field.description().fitReport);
 }
 
-TEST(Fitter, ProgressEndsAtOne) {
+TEST(FieldFit, ProgressEndsAtOne) {
   const MemoryBtf source(2, 5, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
   double last = 0.0;
   valueOf(fitReflectanceField(source, optionsFor("rfp"), [&](double fraction) {
@@ -210,7 +210,7 @@ TEST(Fitter, ProgressEndsAtOne) {
 
 // The figures of quick fits (models.md): luminance of stored values .023 and .032 with two lobes, .035 and
 // .042 with the polynomial; linear .016, .024 and .029, .035: within 15 % on a part of the real materials.
-TEST(Fitter, ReachesTheKnownErrorsOnRealMaterials) {
+TEST(FieldFit, ReachesTheKnownErrorsOnRealMaterials) {
   struct Known {
     const char *file, *model;
     double stored, linear;

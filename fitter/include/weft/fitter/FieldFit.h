@@ -1,0 +1,91 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "weft/core/Progress.h"
+#include "weft/core/Result.h"
+#include "weft/fitter/ErrorMeter.h"
+#include "weft/fitter/FitErrors.h"
+#include "weft/fitter/TexelFitter.h"
+#include "weft/io/BtfSource.h"
+#include "weft/reflectance/ReflectanceField.h"
+
+namespace weft {
+
+/// A rectangle of texels; row 0 is the top.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The values that a fit minimises the errors of.
+enum class FitSpace {
+  Linear,  ///< linear values, residuals weighted as a display shows them: light adds up in these
+  Stored,  ///< values as the measurement stores them, unweighted: the literal fit of the papers
+};
+
+/// How a fit is made. Every default is what most users want.
+struct FitOptions {
+  ModelDescription model;
+  Precision precision = Precision::Half;  ///< of the stored numbers; half changes eps by less than 0.0001
+  /// True: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading. Values in
+  /// FitSpace::Stored always contain it.
+  bool cosineInModel = false;
+  FitSpace space = FitSpace::Linear;
+  std::optional<Crop> crop;  ///< texels to fit; all by default
+  int holdOutLights = 0;     ///< about every Nth is not fitted but tested on (HoldOut.h); 0: none
+  int holdOutViews = 0;
+  std::size_t memory = std::size_t{4}
+                       << 30;  ///< bytes for samples; two blocks of rows share it where one does not suffice
+  std::filesystem::path partsFolder;  ///< where finished rows are kept; empty: nowhere
+
+  Result<void> validate() const;
+};
+
+struct FitResult {
+  ReflectanceField field;
+  FitErrors errors;                  ///< of the field as stored, over all fitted pairs
+  std::optional<FitErrors> heldOut;  ///< over the others, if any were held out
+  std::vector<SplitErrors> texels;   ///< row by row
+  double secondsReading = 0.0;       ///< waiting for samples
+  double secondsFitting = 0.0;
+};
+
+/// A fit of a whole measurement in steps, so that it can be stopped and shared. The result does not depend on
+/// threads, blocks, stops or shares.
+///
+///     WEFT_TRY(FieldFit fit, FieldFit::create(source, options));
+///     WEFT_TRY_VOID(fit.resume());                        // takes over rows in options.partsFolder
+///     WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));    // or each process some
+///     WEFT_TRY(FitResult result, fit.finish());
+class FieldFit {
+ public:
+  /// Fails on options that do not suit the measurement, which must outlive the fit.
+  static Result<FieldFit> create(const BtfSource& source, const FitOptions& options);
+  FieldFit(FieldFit&&) noexcept;
+  ~FieldFit();
+
+  int height() const;
+  /// Takes over the finished rows in the parts folder. Fails on those of another fit.
+  Result<void> resume();
+  /// Fits those of the rows that are not done: texels in parallel, while the next block of rows is read and
+  /// finished ones are written to the parts folder.
+  Result<void> fitRows(int firstRow, int count, const Progress& progress);
+  /// The field, once every row is done; once.
+  Result<FitResult> finish();
+  /// Removes the parts folder; for when the field has been written.
+  void removeParts() const;
+
+ private:
+  struct Data;
+  explicit FieldFit(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+};
+
+/// All steps of a FieldFit, without a resume.
+Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions& options,
+                                      const Progress& progress = {});
+
+}  // namespace weft

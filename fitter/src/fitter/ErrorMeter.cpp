@@ -1,0 +1,92 @@
+#include "weft/fitter/ErrorMeter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "BatchEncoding.h"
+#include "FitWeights.h"
+
+namespace weft {
+namespace {
+
+// Directions of a file have gone through text, so they may differ in the last bit.
+std::vector<bool> amongOthers(const std::vector<glm::vec3>& directions,
+                              const std::vector<glm::vec3>& others) {
+  std::vector<bool> result;
+  for (glm::vec3 direction : directions)
+    result.push_back(std::ranges::any_of(
+        others, [&](glm::vec3 other) { return glm::distance(direction, other) < 1e-4f; }));
+  return result;
+}
+
+}  // namespace
+
+ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& description,
+                       const BtfDescription& measured)
+    : formula_(std::move(formula)),
+      views_(measured.views),
+      lights_(measured.lights),
+      encoding_(measured.encoding),
+      viewIsFitted_(amongOthers(measured.views, description.views)),
+      lightIsFitted_(amongOthers(measured.lights, description.lights)) {
+  const bool ofLights = formula_.model().layerDirections() == LayerDirections::Lights;
+  for (glm::vec3 direction : ofLights ? lights_ : views_)
+    layers_.push_back(formula_.layersAround(direction, direction));
+  const auto notAll = [](const std::vector<bool>& flags) {
+    return std::ranges::find(flags, false) != flags.end();
+  };
+  holdsOut_ = notAll(viewIsFitted_) || notAll(lightIsFitted_);
+}
+
+glm::vec3 ErrorMeter::modelValue(std::span<const float> shared, std::span<const float> layers,
+                                 std::size_t view, std::size_t light) const {
+  if (formula_.layerCount() == 0) return formula_.evaluate(shared, {}, lights_[light], views_[view]);
+  const bool ofLights = formula_.model().layerDirections() == LayerDirections::Lights;
+  const DirectionWeights& around = layers_[ofLights ? light : view];
+  const std::size_t channels = layers.size() / static_cast<std::size_t>(formula_.layerCount());
+  glm::vec3 sum(0.0f);
+  for (int k = 0; k < 3; ++k) {
+    // Measured directions are layers themselves, but for rounding.
+    if (around.weight[k] < 1e-4f) continue;
+    const auto index = static_cast<std::size_t>(around.index[static_cast<std::size_t>(k)]);
+    const glm::vec3 value =
+        formula_.evaluate(shared, layers.subspan(index * channels, channels), lights_[light], views_[view]);
+    if (around.weight[k] > 0.9999f) return value;
+    sum += around.weight[k] * value;
+  }
+  return sum;
+}
+
+SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const float> layers,
+                                std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const {
+  const float grazingZ = std::cos(glm::radians(59.9f));
+  const std::size_t lightCount = lights_.size();
+  SplitErrors errors;
+  std::vector<glm::vec3> model(lightCount);
+  std::vector<glm::vec3> storedModel(lightCount);
+  for (std::size_t view = 0; view < views_.size(); ++view) {
+    for (std::size_t light = 0; light < lightCount; ++light)
+      model[light] = modelValue(shared, layers, view, light);
+    storedModel = model;
+    encodeAll(encoding_, floatsOf(storedModel));
+    const auto addRun = [&](TexelErrors& to, std::size_t first, std::size_t count) {
+      const std::size_t from = view * lightCount + first;
+      to.add({.linear = linear.subspan(from, count), .stored = stored.subspan(from, count)},
+             {.linear = std::span(model).subspan(first, count),
+              .stored = std::span(storedModel).subspan(first, count)},
+             views_[view].z < grazingZ);
+    };
+    for (std::size_t first = 0; first < lightCount;) {
+      const bool isFitted = viewIsFitted_[view] && lightIsFitted_[first];
+      std::size_t end = first + 1;
+      while (end < lightCount && (viewIsFitted_[view] && lightIsFitted_[end]) == isFitted) ++end;
+      addRun(isFitted ? errors.fitted : errors.heldOut, first, end - first);
+      first = end;
+    }
+  }
+  return errors;
+}
+
+}  // namespace weft

@@ -1,0 +1,30 @@
+#include <fmt/format.h>
+
+#include "RfnlFitter.h"
+#include "RfpFitter.h"
+#include "weft/fitter/TexelFitter.h"
+
+namespace weft {
+
+FitterRegistry FitterRegistry::builtin() {
+  FitterRegistry registry;
+  registry.add("rfp", RfpFitter::create);
+  registry.add("rfnl", RfnlFitter::create);
+  registry.add("lfp", RfpFitter::createForLights);
+  registry.add("lfnl", RfnlFitter::createForLights);
+  registry.add("ptm", RfpFitter::createForOneView);
+  return registry;
+}
+
+void FitterRegistry::add(std::string model, Factory factory) {
+  factories_.emplace_back(std::move(model), factory);
+}
+
+Result<std::unique_ptr<TexelFitter>> FitterRegistry::create(const FitProblem& problem) const {
+  const std::string name = problem.model->description().name;
+  for (const auto& [model, factory] : factories_)
+    if (model == name) return factory(problem);
+  return fail(fmt::format("there is no fitter for the model '{}'", name));
+}
+
+}  // namespace weft
