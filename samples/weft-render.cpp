@@ -54,6 +54,8 @@ struct Arguments {
   float uvScale = 1.0f;
   int views = 3;
   std::string filter = "bilinear";
+  std::optional<double> time;
+  std::string animation;
   int frames = 0;
 };
 
@@ -75,6 +77,8 @@ struct Settings {
   std::optional<PointOfView> viewpoint;  // instead of a name
   std::vector<Lamp> lamps;
   std::map<std::string, std::string> materialFiles;
+  std::optional<double> time;
+  std::string animation;
 };
 
 /// The number that `text` is, and nothing else; "nan" is one.
@@ -172,6 +176,12 @@ tl::expected<Settings, std::string> readSettings(Arguments arguments) {
     return tl::unexpected(fmt::format("--uv-scale takes a number above 0, up to {}", kLargestUvScale));
   if (!arguments.output.ends_with(".png") && !arguments.output.ends_with(".exr"))
     return tl::unexpected<std::string>("--output must end with .png or .exr");
+  if (arguments.time && !std::isfinite(*arguments.time))
+    return tl::unexpected<std::string>("--time takes seconds");
+  if (!arguments.time && !arguments.animation.empty())
+    return tl::unexpected<std::string>("--animation needs a --time");
+  settings.time = arguments.time;
+  settings.animation = arguments.animation;
   if (!readCamera(arguments.camera, settings))
     return tl::unexpected<std::string>("--camera takes a name or x,y,z:tx,ty,tz");
   for (const std::string& light : arguments.lights)
@@ -209,6 +219,8 @@ Result<GltfScene> loadScene(const Settings& settings, BTFMaterialOptions btf) {
   GltfOptions options;
   options.btf = btf;
   options.lights = settings.lamps.empty();
+  options.time = settings.time;
+  options.animation = settings.animation;
   for (const auto& [name, file] : settings.materialFiles) {
     WEFT_TRY(options.replacements[name], loadBTFMaterial(file, btf));
   }
@@ -378,6 +390,9 @@ int main(int argc, char** argv) {
           "what is between texels: nearest, or bilinear, which is smooth and costs four times as much")
       ->check(CLI::IsMember({"nearest", "bilinear"}))
       ->capture_default_str();
+  options.add_option("--time", arguments.time,
+                     "shows the scene so many seconds after the start of its animation");
+  options.add_option("--animation", arguments.animation, "which animation; default: the file's first");
   options
       .add_option("--frames", arguments.frames,
                   "time this many further frames, without supersampling, for --json")

@@ -82,6 +82,61 @@ inline std::string planeGlb() {
          json + word(binary.size()) + std::string("BIN\0", 4) + std::string(binary.begin(), binary.end());
 }
 
+/// A .gltf put together from numbers, which become accessors of one embedded buffer.
+class GltfText {
+ public:
+  /// The number of the new accessor; `type`: "VEC3"; `more`: further members of it, each after a comma.
+  template <class Number>
+  int add(const std::vector<Number>& numbers, const std::string& type, const std::string& more = "") {
+    const std::size_t components = type == "SCALAR" ? 1u
+                                   : type == "MAT4" ? 16u
+                                                    : static_cast<std::size_t>(type.back() - '0');
+    return addAccessor(R"("bufferView":)" + std::to_string(addView(numbers)) + R"(,"componentType":)" +
+                       std::to_string(componentType(Number())) + R"(,"count":)" +
+                       std::to_string(numbers.size() / components) + R"(,"type":")" + type + '"' + more);
+  }
+
+  /// The number of a new accessor with these members.
+  int addAccessor(const std::string& members) {
+    accessors_ += (accessors_.empty() ? "{" : ",{") + members + "}";
+    return accessorCount_++;
+  }
+
+  /// The number of a new buffer view.
+  template <class Number>
+  int addView(const std::vector<Number>& numbers) {
+    while (buffer_.bytes().size() % 4 != 0) buffer_.add<std::uint8_t>({0});
+    views_ += (views_.empty() ? R"({"buffer":0,"byteOffset":)" : R"(,{"buffer":0,"byteOffset":)") +
+              std::to_string(buffer_.bytes().size()) + R"(,"byteLength":)" +
+              std::to_string(numbers.size() * sizeof(Number)) + "}";
+    buffer_.add(numbers);
+    return viewCount_++;
+  }
+
+  /// The file; `members` are what it has beside asset, the scene of node 0 and the accessors: nodes,
+  /// meshes...
+  std::string text(const std::string& members) const {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)" + members +
+           R"(,"accessors":[)" + accessors_ + R"(],"bufferViews":[)" + views_ +
+           R"(],"buffers":[{"byteLength":)" + std::to_string(buffer_.bytes().size()) + R"(,"uri":")" +
+           buffer_.dataUri() + R"("}]})";
+  }
+
+ private:
+  static int componentType(std::int8_t) { return 5120; }
+  static int componentType(std::uint8_t) { return 5121; }
+  static int componentType(std::int16_t) { return 5122; }
+  static int componentType(std::uint16_t) { return 5123; }
+  static int componentType(std::uint32_t) { return 5125; }
+  static int componentType(float) { return 5126; }
+
+  BufferBytes buffer_;
+  std::string views_;
+  std::string accessors_;
+  int viewCount_ = 0;
+  int accessorCount_ = 0;
+};
+
 /// `text` with the one place that reads `from` changed; throws where there is none.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);

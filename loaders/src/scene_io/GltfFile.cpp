@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <limits>
-#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -45,20 +43,6 @@ std::uint32_t wordAt(const std::vector<std::uint8_t>& bytes, std::size_t offset)
   std::uint32_t word = 0;  // little-endian, as every machine that GL runs on
   std::memcpy(&word, bytes.data() + offset, sizeof word);
   return word;
-}
-
-/// The JSON text of either kind of file; checks the header of a .glb.
-Result<std::string_view> jsonText(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path) {
-  const auto text = [&](std::size_t offset, std::size_t size) {
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, size);
-  };
-  if (!isBinary(bytes)) return text(0, bytes.size());
-  if (bytes.size() < 20) return fail("the file is truncated", path.string());
-  if (wordAt(bytes, 4) != 2) return fail("this is not glTF 2.0", path.string());
-  const std::size_t length = wordAt(bytes, 8), jsonLength = wordAt(bytes, 12);
-  if (length > bytes.size() || jsonLength > bytes.size() - 20)
-    return fail("the file is truncated", path.string());
-  return text(20, jsonLength);
 }
 
 bool isImagePath(const std::string& path) {
@@ -104,105 +88,47 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::optional<std::string> unknownRequirement(const tinygltf::Model& model) {
-  for (const std::string& extension : model.extensionsRequired)
-    if (extension != "KHR_lights_punctual" && extension != "KHR_mesh_quantization" &&
-        extension != "WEFT_materials_btf")
-      return extension;
-  return std::nullopt;
-}
-
-std::size_t componentSize(int componentType) {
-  switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_DOUBLE:
-      return 8;
-    default:
-      return 4;
-  }
-}
-
-/// Elements of an accessor in its buffer, all of them inside.
-struct Elements {
-  const std::uint8_t* first;
-  std::size_t stride;
-  std::size_t count;
-  int componentType;
-  bool normalized;
-};
-
-Result<Elements> elementsOf(const GltfFile& file, int index, std::size_t components) {
-  const std::string name = "accessor " + std::to_string(index);
-  if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size())
-    return file.fail(name + " does not exist");
-  const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
-  if (accessor.sparse.isSparse) return file.fail(name + " is sparse, which Weft does not read");
-  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) !=
-      static_cast<int>(components))
-    return file.fail(name + " does not have " + std::to_string(components) + " components");
-  WEFT_TRY(const std::span<const std::uint8_t> bytes, viewBytes(file, accessor.bufferView));
-  const std::size_t size = components * componentSize(accessor.componentType);
-  const std::size_t given = file.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-  const std::size_t stride = given == 0 ? size : given;
-  const bool inside = accessor.count > 0 && accessor.byteOffset <= bytes.size() &&
-                      size <= bytes.size() - accessor.byteOffset &&
-                      accessor.count - 1 <= (bytes.size() - accessor.byteOffset - size) / stride;
-  if (!inside) return file.fail(name + " is empty or reaches beyond its buffer view");
-  return Elements{bytes.data() + accessor.byteOffset, stride, accessor.count, accessor.componentType,
-                  accessor.normalized};
-}
-
-template <class Number>
-Number load(const std::uint8_t* bytes) {
-  Number value;  // the file need not align it
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-
-template <class Integer>
-float integerToFloat(const std::uint8_t* bytes, bool normalized) {
-  const float value = static_cast<float>(load<Integer>(bytes));
-  if (!normalized) return value;
-  return std::max(value / static_cast<float>(std::numeric_limits<Integer>::max()), -1.0f);
-}
-
-float componentToFloat(const std::uint8_t* bytes, int componentType, bool normalized) {
-  switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return integerToFloat<std::int8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return integerToFloat<std::uint8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return integerToFloat<std::int16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return integerToFloat<std::uint16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_INT:
-      return integerToFloat<std::int32_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return integerToFloat<std::uint32_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_DOUBLE:
-      return static_cast<float>(load<double>(bytes));
-    default:
-      return load<float>(bytes);
-  }
+/// The names of required extensions that nobody knows, as a list; empty without any.
+std::string unknownRequirements(const GltfContents& contents, const GltfOptions& options) {
+  std::string names;
+  for (const std::string& extension : contents.required)
+    if (!isKnownExtension(extension) && !options.extensions.contains(extension))
+      names += (names.empty() ? "" : ", ") + extension;
+  return names;
 }
 
 }  // namespace
 
-Result<GltfFile> readGltfFile(const std::filesystem::path& path) {
-  WEFT_TRY(std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestFile));
-  WEFT_TRY(const std::string_view json, jsonText(bytes, path));
+Result<std::vector<std::uint8_t>> readGltfBytes(const std::filesystem::path& path) {
+  return readFileBytes(path, kLargestFile);
+}
+
+Result<std::string_view> jsonOf(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path) {
+  std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (isBinary(bytes)) {
+    if (bytes.size() < 20) return fail("the file is truncated", path.string());
+    if (wordAt(bytes, 4) != 2) return fail("this is not glTF 2.0", path.string());
+    const std::size_t length = wordAt(bytes, 8), jsonLength = wordAt(bytes, 12);
+    if (length > bytes.size() || jsonLength > bytes.size() - 20)
+      return fail("the file is truncated", path.string());
+    json = json.substr(20, jsonLength);
+  }
   if (jsonDepth(json) > kDeepestJson) return fail("the JSON is nested too deeply", path.string());
+  return json;
+}
+
+Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptions& options) {
+  WEFT_TRY(std::vector<std::uint8_t> bytes, readGltfBytes(path));
+  WEFT_TRY(const std::string_view json, jsonOf(bytes, path));
+  GltfFile file{path, {}, contentsOf(json), {}};
+  if (file.contents.version.starts_with("1.") || file.contents.version.starts_with("0."))
+    return file.fail("this is glTF " + file.contents.version + ", not 2.0");
+  if (const std::string names = unknownRequirements(file.contents, options); !names.empty())
+    return file.fail("the file requires extensions that Weft does not know: " + names);
+
   const auto size = static_cast<unsigned int>(bytes.size());
   // tinygltf's check of the second chunk of a .glb reads 8 bytes beyond the end of a truncated file.
   bytes.resize(bytes.size() + 8);
-
-  GltfFile file{path, {}};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keepImageBytes, nullptr);
   std::error_code ignored;
@@ -219,8 +145,7 @@ Result<GltfFile> readGltfFile(const std::filesystem::path& path) {
   } catch (const std::exception& exception) {
     return file.fail(std::string("this is not valid glTF: ") + exception.what());
   }
-  if (const auto extension = unknownRequirement(file.model))
-    return file.fail("the file requires the extension " + *extension + ", which Weft does not know");
+  file.warning = oneLine(error);
   return file;
 }
 
@@ -237,43 +162,25 @@ Result<std::span<const std::uint8_t>> viewBytes(const GltfFile& file, int index)
   return std::span<const std::uint8_t>(data).subspan(view.byteOffset, view.byteLength);
 }
 
-Result<std::vector<float>> readFloats(const GltfFile& file, int accessor, std::size_t components) {
-  WEFT_TRY(const Elements elements, elementsOf(file, accessor, components));
-  const std::size_t size = componentSize(elements.componentType);
-  std::vector<float> values;
-  values.reserve(elements.count * components);
-  for (std::size_t i = 0; i < elements.count; ++i)
-    for (std::size_t k = 0; k < components; ++k) {
-      const float value = componentToFloat(elements.first + i * elements.stride + k * size,
-                                           elements.componentType, elements.normalized);
-      if (!std::isfinite(value))
-        return file.fail("accessor " + std::to_string(accessor) + " holds a value that is not finite");
-      values.push_back(value);
-    }
-  return values;
-}
-
-Result<std::vector<std::uint32_t>> readIndices(const GltfFile& file, int accessor) {
-  WEFT_TRY(const Elements elements, elementsOf(file, accessor, 1));
-  std::vector<std::uint32_t> indices;
-  indices.reserve(elements.count);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    const std::uint8_t* bytes = elements.first + i * elements.stride;
-    switch (elements.componentType) {
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        indices.push_back(*bytes);
-        break;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        indices.push_back(load<std::uint16_t>(bytes));
-        break;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        indices.push_back(load<std::uint32_t>(bytes));
-        break;
-      default:
-        return file.fail("accessor " + std::to_string(accessor) + " does not hold unsigned integers");
-    }
+Result<std::vector<double>> numbersOf(const GltfFile& file, const std::string& extension,
+                                      const tinygltf::Value& value, const std::string& key,
+                                      const std::vector<double>& otherwise) {
+  if (!value.IsObject()) return file.fail(extension + " is not an object");
+  if (!value.Has(key)) return otherwise;
+  const tinygltf::Value& member = value.Get(key);
+  std::vector<double> numbers;
+  if (otherwise.size() == 1 && member.IsNumber()) numbers.push_back(member.GetNumberAsDouble());
+  for (std::size_t i = 0; otherwise.size() > 1 && i < member.ArrayLen(); ++i) {
+    const tinygltf::Value& element = member.Get(static_cast<int>(i));
+    if (element.IsNumber()) numbers.push_back(element.GetNumberAsDouble());
   }
-  return indices;
+  const bool finite = std::all_of(numbers.begin(), numbers.end(),
+                                  [](double number) { return std::isfinite(static_cast<float>(number)); });
+  if (!finite || numbers.size() != otherwise.size() ||
+      (member.IsArray() && member.ArrayLen() != numbers.size()))
+    return file.fail("the " + key + " of " + extension + " is not " +
+                     (otherwise.size() == 1 ? "a number" : std::to_string(otherwise.size()) + " numbers"));
+  return numbers;
 }
 
 Result<std::vector<std::uint8_t>> imageBytes(const GltfFile& file, int index) {

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "GltfData.h"
 #include "weft/core/Result.h"
 
 namespace weft {
@@ -18,6 +20,8 @@ namespace weft {
 struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;
+  GltfContents contents;
+  std::string warning;  ///< of tinygltf, about what it left out; may be empty
 
   std::filesystem::path folder() const { return path.parent_path(); }
   /// Fails with this file as the place.
@@ -26,18 +30,24 @@ struct GltfFile {
   }
 };
 
-/// Reads .gltf (with its buffers) or .glb, told by the first bytes. Images are left alone: see imageBytes().
-Result<GltfFile> readGltfFile(const std::filesystem::path& path);
+/// The bytes of a .gltf or .glb, and the JSON among them: all, or the first chunk of a .glb, told by the
+/// first bytes. Fails on a broken header, and on JSON nested so deeply that parsers, which recurse, would not
+/// survive it.
+Result<std::vector<std::uint8_t>> readGltfBytes(const std::filesystem::path& path);
+Result<std::string_view> jsonOf(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path);
+
+/// Reads .gltf (with its buffers) or .glb, told by the first bytes; it may require the extensions that Weft
+/// or the options know. Images are left alone: see imageBytes().
+Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptions& options);
 
 /// The bytes of a buffer view.
 Result<std::span<const std::uint8_t>> viewBytes(const GltfFile& file, int view);
 
-/// An accessor as floats, `components` an element; integers are normalised where the file says so. Refuses
-/// values that are not finite.
-Result<std::vector<float>> readFloats(const GltfFile& file, int accessor, std::size_t components);
-
-/// An accessor of whole numbers: vertex indices.
-Result<std::vector<std::uint32_t>> readIndices(const GltfFile& file, int accessor);
+/// A member of an extension that is as many numbers as `otherwise`, which it is where the member is missing;
+/// a single one need not be an array. Fails where it is something else, or not finite as a float.
+Result<std::vector<double>> numbersOf(const GltfFile& file, const std::string& extension,
+                                      const tinygltf::Value& value, const std::string& key,
+                                      const std::vector<double>& otherwise);
 
 /// The encoded bytes of an image (PNG or JPEG), embedded or from its file.
 Result<std::vector<std::uint8_t>> imageBytes(const GltfFile& file, int image);

@@ -1,15 +1,16 @@
 #include "weft/scene_io/GltfLoader.h"
 
+#include <charconv>
 #include <cmath>
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <utility>
 
+#include "GltfAccessor.h"
 #include "GltfFile.h"
 #include "GltfMaterials.h"
 #include "GltfMesh.h"
+#include "GltfPose.h"
 #include "weft/scenegraph/Geometry.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/MaterialGroup.h"
@@ -30,37 +31,17 @@ struct Visit {
   int depth;
 };
 
+/// A node of the scene.
+struct Placed {
+  std::shared_ptr<Node> node;
+  glm::mat4 toWorld;
+};
+
 bool isFinite(const glm::mat4& matrix) {
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(matrix[column][row])) return false;
   return true;
-}
-
-std::optional<glm::mat4> matrixOf(const tinygltf::Node& node) {
-  const auto sizeIs = [](const std::vector<double>& values, std::size_t size) {
-    return values.empty() || values.size() == size;
-  };
-  if (!sizeIs(node.matrix, 16) || !sizeIs(node.translation, 3) || !sizeIs(node.rotation, 4) ||
-      !sizeIs(node.scale, 3))
-    return std::nullopt;
-  glm::mat4 matrix(1.0f);
-  if (!node.matrix.empty()) {
-    for (std::size_t i = 0; i < 16; ++i)
-      matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = static_cast<float>(node.matrix[i]);
-  } else {
-    if (!node.translation.empty())
-      matrix =
-          glm::translate(matrix, glm::vec3(node.translation[0], node.translation[1], node.translation[2]));
-    if (!node.rotation.empty()) {
-      const std::vector<double>& r = node.rotation;
-      matrix *= glm::mat4(glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2]))));
-    }
-    if (!node.scale.empty())
-      matrix = glm::scale(matrix, glm::vec3(node.scale[0], node.scale[1], node.scale[2]));
-  }
-  if (!isFinite(matrix)) return std::nullopt;
-  return matrix;
 }
 
 /// The inverse of a camera node's matrix without its scale, which glTF says to leave out.
@@ -78,34 +59,45 @@ std::optional<glm::mat4> viewOf(const glm::mat4& toWorld) {
 
 class SceneReader {
  public:
-  SceneReader(GltfFile file, const GltfOptions& options)
-      : file_(std::move(file)), options_(options), materials_(file_, options, scene_.warnings) {}
+  SceneReader(const GltfFile& file, GltfPose pose, const GltfOptions& options)
+      : file_(file), pose_(std::move(pose)), options_(options), materials_(file_, options, scene_.warnings) {}
   SceneReader(const SceneReader&) = delete;
   SceneReader& operator=(const SceneReader&) = delete;
 
   Result<GltfScene> read() {
     scene_.root = std::make_shared<Node>();
-    WEFT_TRY_VOID(readNodes());
-    if (!file_.model.animations.empty()) warn("animations are not played");
-    if (!file_.model.skins.empty()) warn("skins are ignored: meshes stand as they were modelled");
+    warnOfTheFile();
+    WEFT_TRY(scene_.animations, animationsOf(file_));
+    WEFT_TRY_VOID(placeNodes());
+    for (const int index : order_) WEFT_TRY_VOID(addContents(index));
     scene_.materials = materials_.names();
     scene_.bounds = boundsOf(*scene_.root);
-    if (scene_.bounds.empty()) return file_.fail("the scene draws no triangles");
+    if (scene_.bounds.empty()) return file_.fail("the scene draws nothing", file_.warning);
     if (!std::isfinite(scene_.bounds.radius())) return file_.fail("the scene is too large");
     setFarPlanes();
+    scene_.data = file_.contents.data;
+    WEFT_TRY_VOID(callExtensions());
     return std::move(scene_);
   }
 
  private:
   void warn(std::string warning) { scene_.warnings.push_back(std::move(warning)); }
 
-  Result<void> readNodes() {
+  void warnOfTheFile() {
+    if (!file_.warning.empty()) warn("not all of the file is valid glTF: " + file_.warning);
+    for (const std::string& extension : file_.model.extensionsUsed)
+      if (!isKnownExtension(extension) && !options_.extensions.contains(extension))
+        warn("what " + extension + " says is not shown");
+    if (!file_.model.animations.empty() && !options_.time) warn("animations stand still, no time is given");
+  }
+
+  /// Makes the nodes of the scene, still without contents, in the order of the file's tree.
+  Result<void> placeNodes() {
     const tinygltf::Model& model = file_.model;
     if (model.scenes.empty()) return file_.fail("the file has no scene");
     const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
     if (scene >= model.scenes.size()) return file_.fail("the default scene does not exist");
     const std::vector<int>& roots = model.scenes[scene].nodes;
-    std::vector<bool> visited(model.nodes.size());
     std::vector<Visit> visits;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
       visits.push_back({*root, scene_.root, glm::mat4(1.0f), 0});
@@ -115,38 +107,50 @@ class SceneReader {
       const std::string name = "node " + std::to_string(visit.index);
       if (visit.index < 0 || static_cast<std::size_t>(visit.index) >= model.nodes.size())
         return file_.fail(name + " does not exist");
-      if (visited[static_cast<std::size_t>(visit.index)])
-        return file_.fail(name + " has two parents or is in a cycle");
-      visited[static_cast<std::size_t>(visit.index)] = true;
+      if (placed_.contains(visit.index)) return file_.fail(name + " has two parents or is in a cycle");
       if (visit.depth > kDeepestNode) return file_.fail("the nodes are nested too deeply");
       const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(visit.index)];
-      const std::optional<glm::mat4> matrix = matrixOf(node);
-      const glm::mat4 toWorld = matrix ? visit.toWorld * *matrix : glm::mat4(1.0f);
-      if (!matrix || !isFinite(toWorld)) return file_.fail(name + " has a broken transform");
-      const auto placed = visit.parent->addChild(std::make_shared<Transform>(*matrix), node.name);
-      WEFT_TRY_VOID(addContents(node, *placed, toWorld));
+      WEFT_TRY(const glm::mat4 matrix, pose_.matrix(visit.index));
+      const glm::mat4 toWorld = visit.toWorld * matrix;
+      if (!isFinite(toWorld)) return file_.fail(name + " has a broken transform");
+      const auto placed = visit.parent->addChild(std::make_shared<Transform>(matrix), node.name);
+      placed_[visit.index] = {placed, toWorld};
+      order_.push_back(visit.index);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         visits.push_back({*child, placed, toWorld, visit.depth + 1});
     }
     return {};
   }
 
-  Result<void> addContents(const tinygltf::Node& node, Node& placed, const glm::mat4& toWorld) {
-    if (node.mesh >= 0) WEFT_TRY_VOID(addMesh(node.mesh, placed));
-    if (node.camera >= 0) WEFT_TRY_VOID(addCamera(node, toWorld));
+  Result<void> addContents(int index) {
+    const tinygltf::Node& node = file_.model.nodes[static_cast<std::size_t>(index)];
+    const Placed& placed = placed_.at(index);
+    if (node.mesh >= 0) WEFT_TRY_VOID(addMesh(index, node, *placed.node));
+    if (node.camera >= 0) WEFT_TRY_VOID(addCamera(node, placed.toWorld));
     if (options_.lights && node.extensions.contains(kLightExtension))
-      WEFT_TRY_VOID(addLight(node.extensions.at(kLightExtension), placed));
+      WEFT_TRY_VOID(addLight(node.extensions.at(kLightExtension), *placed.node));
     return {};
   }
 
-  Result<void> addMesh(int index, Node& placed) {
-    if (static_cast<std::size_t>(index) >= file_.model.meshes.size())
-      return file_.fail("mesh " + std::to_string(index) + " does not exist");
-    if (!meshes_.contains(index)) {
-      WEFT_TRY(meshes_[index], readPrimitives(file_.model.meshes[static_cast<std::size_t>(index)]));
+  Result<void> addMesh(int index, const tinygltf::Node& node, Node& placed) {
+    if (static_cast<std::size_t>(node.mesh) >= file_.model.meshes.size())
+      return file_.fail("mesh " + std::to_string(node.mesh) + " does not exist");
+    const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(node.mesh)];
+    MeshPose pose{.morphWeights = pose_.morphWeights(index)};
+    if (node.skin >= 0) {
+      WEFT_TRY(pose.joints, jointsOf(node.skin));
+      // A skin places its vertices in the world; glTF says not to heed where the node stands.
+      WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
+      addPrimitives(primitives, *scene_.root);
+    } else if (pose_.hasOwnWeights(index)) {
+      WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
+      addPrimitives(primitives, placed);
+    } else {
+      if (!meshes_.contains(node.mesh)) {
+        WEFT_TRY(meshes_[node.mesh], readPrimitives(mesh, pose));
+      }
+      addPrimitives(meshes_[node.mesh], placed);
     }
-    for (const Primitive& primitive : meshes_[index])
-      placed.addChild(primitive.material)->addChild(primitive.geometry);
     return {};
   }
 
@@ -156,24 +160,44 @@ class SceneReader {
     std::shared_ptr<const Geometry> geometry;
   };
 
-  Result<std::vector<Primitive>> readPrimitives(const tinygltf::Mesh& mesh) {
+  static void addPrimitives(const std::vector<Primitive>& primitives, Node& parent) {
+    for (const Primitive& primitive : primitives)
+      parent.addChild(primitive.material)->addChild(primitive.geometry);
+  }
+
+  Result<std::vector<Primitive>> readPrimitives(const tinygltf::Mesh& mesh, const MeshPose& pose) {
     std::vector<Primitive> primitives;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      if (primitive.mode != -1 && primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-        warn("mesh \"" + mesh.name + "\" has points, lines, strips or fans, which are not drawn");
-        continue;
-      }
       if (!primitive.attributes.contains("POSITION")) continue;  // glTF: it is not drawn
-      if (!primitive.attributes.contains("TEXCOORD_0"))
-        warn("mesh \"" + mesh.name + "\" has no texture coordinates: it shows a single texel");
-      WEFT_TRY(std::shared_ptr<const Mesh> triangles, readMesh(file_, primitive));
-      vertices_ += triangles->positions.size() + triangles->indices.size();
+      WEFT_TRY(const MeshDress dress, materials_.get(primitive.material, shadingOf(primitive)));
+      WEFT_TRY(std::shared_ptr<const Mesh> read, readMesh(file_, primitive, dress, pose, scene_.warnings));
+      vertices_ += read->positions.size() + read->indices.size();
       if (vertices_ > kMostVertices) return file_.fail("the scene has too many vertices");
-      WEFT_TRY(std::shared_ptr<const Material> material, materials_.get(primitive.material));
-      primitives.push_back({std::make_shared<MaterialGroup>(std::move(material)),
-                            std::make_shared<Geometry>(std::move(triangles))});
+      primitives.push_back(
+          {std::make_shared<MaterialGroup>(dress.material), std::make_shared<Geometry>(std::move(read))});
     }
     return primitives;
+  }
+
+  /// Vertex to world, for every joint of a skin.
+  Result<std::vector<glm::mat4>> jointsOf(int index) {
+    const std::string name = "skin " + std::to_string(index);
+    if (static_cast<std::size_t>(index) >= file_.model.skins.size())
+      return file_.fail(name + " does not exist");
+    const tinygltf::Skin& skin = file_.model.skins[static_cast<std::size_t>(index)];
+    std::vector<glm::mat4> toJoint(skin.joints.size(), glm::mat4(1.0f));
+    if (skin.inverseBindMatrices >= 0) {
+      WEFT_TRY(toJoint, (readVectors<glm::mat4, 16>(file_, skin.inverseBindMatrices)));
+    }
+    if (skin.joints.empty() || toJoint.size() < skin.joints.size())
+      return file_.fail(name + " has no joints, or less matrices than joints");
+    std::vector<glm::mat4> joints;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      const auto joint = placed_.find(skin.joints[i]);
+      if (joint == placed_.end()) return file_.fail(name + " has a joint that is not in the scene");
+      joints.push_back(joint->second.toWorld * toJoint[i]);
+    }
+    return joints;
   }
 
   Result<void> addCamera(const tinygltf::Node& node, const glm::mat4& toWorld) {
@@ -233,10 +257,31 @@ class SceneReader {
     }
   }
 
-  GltfFile file_;
+  /// Hands the program what it knows better, in the order of the file.
+  Result<void> callExtensions() {
+    constexpr std::string_view nodes = "/nodes/";
+    for (const GltfData& data : scene_.data) {
+      const auto handler = options_.extensions.find(data.name);
+      if (handler == options_.extensions.end()) continue;
+      int index = -1;
+      if (data.place.starts_with(nodes)) {
+        const char* end = data.place.data() + data.place.size();
+        const auto [rest, error] = std::from_chars(data.place.data() + nodes.size(), end, index);
+        if (error != std::errc() || rest != end) index = -1;
+      }
+      const auto placed = placed_.find(index);
+      WEFT_TRY_VOID(handler->second(data, placed == placed_.end() ? nullptr : placed->second.node.get()));
+    }
+    return {};
+  }
+
+  const GltfFile& file_;
+  GltfPose pose_;
   const GltfOptions& options_;
   GltfScene scene_;
   GltfMaterials materials_;
+  std::map<int, Placed> placed_;  ///< by the file's number
+  std::vector<int> order_;        ///< of the nodes in the tree
   std::map<int, std::vector<Primitive>> meshes_;
   std::size_t vertices_ = 0;
 };
@@ -244,8 +289,9 @@ class SceneReader {
 }  // namespace
 
 Result<GltfScene> loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
-  WEFT_TRY(GltfFile file, readGltfFile(path));
-  return SceneReader(std::move(file), options).read();
+  WEFT_TRY(const GltfFile file, readGltfFile(path, options));
+  WEFT_TRY(GltfPose pose, GltfPose::create(file, options));
+  return SceneReader(file, std::move(pose), options).read();
 }
 
 }  // namespace weft

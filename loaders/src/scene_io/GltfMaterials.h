@@ -1,13 +1,29 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "GltfFile.h"
-#include "weft/core/Image.h"
+#include "GltfTextures.h"
+#include "weft/materials/PBRMaterial.h"
 #include "weft/scene_io/GltfLoader.h"
 
 namespace weft {
+
+/// What glTF makes lighting depend on: lines and points without normals are shown without it, those without
+/// tangents have no normal texture.
+enum class Shading { Full, WithoutNormalTexture, Unlit };
+
+/// A material, and what it asks of the meshes that wear it.
+struct MeshDress {
+  std::shared_ptr<const Material> material{};
+  std::array<int, 2> sets{0, 1};  ///< the file's texture coordinates that become the mesh's two sets
+  int tangentSet = 0;             ///< which of the file's the file's tangents belong to
+  TexturePlacement placement{};   ///< of the mesh's first set, tangents included
+  bool usesTexcoords = false;
+};
 
 /// Makes the materials of a file when they are first asked for, so that what nothing uses, or what the
 /// options replace, may lack its files.
@@ -15,29 +31,31 @@ class GltfMaterials {
  public:
   /// All three must outlive this.
   GltfMaterials(const GltfFile& file, const GltfOptions& options, std::vector<std::string>& warnings)
-      : file_(file), options_(options), warnings_(warnings) {}
+      : file_(file), options_(options), warnings_(warnings), textures_(file, warnings) {}
 
   /// `index` -1: glTF's default material.
-  Result<std::shared_ptr<const Material>> get(int index);
+  Result<MeshDress> get(int index, Shading shading = Shading::Full);
   /// Of all that get() was asked for.
   std::vector<std::string> names() const;
 
  private:
-  struct Named {
-    std::string name;
-    std::shared_ptr<const Material> material;
-  };
+  Result<MeshDress> make(int index, const tinygltf::Material& material, Shading shading);
+  Result<MeshDress> makeBtf(const tinygltf::Material& material);
+  Result<MeshDress> makePbr(const tinygltf::Material& material, Shading shading);
 
-  Result<std::shared_ptr<const Material>> make(const tinygltf::Material& material);
-  Result<std::shared_ptr<const Material>> makeBtf(const tinygltf::Material& material);
-  Result<std::shared_ptr<const Material>> makeLambert(const tinygltf::Material& material);
-  Result<std::shared_ptr<const Image>> baseColor(const tinygltf::Material& material);
+  Result<void> readFactors(const tinygltf::Material& material, PBROptions& options) const;
+  Result<void> readAlpha(const tinygltf::Material& material, PBROptions& options) const;
+  Result<void> readExtensions(const tinygltf::Material& material, PBROptions& options);
+  Result<void> readTextures(const tinygltf::Material& material, PBROptions& options);
+  /// `info`: any of tinygltf's kinds.
+  template <class Info>
+  Result<PBRTexture> texture(const Info& info, bool srgb, const std::string& use);
 
   const GltfFile& file_;
   const GltfOptions& options_;
   std::vector<std::string>& warnings_;
-  std::map<int, Named> made_;
-  std::map<int, std::shared_ptr<const Image>> images_;
+  GltfTextures textures_;
+  std::map<std::pair<int, Shading>, MeshDress> made_;
 };
 
 }  // namespace weft

@@ -2,42 +2,165 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numeric>
-#include <type_traits>
 
+#include "GltfAccessor.h"
 #include "weft/scenegraph/Tangents.h"
 
 namespace weft {
 namespace {
 
-/// An attribute as vectors; empty where the primitive does not have it.
+using Attributes = std::map<std::string, int>;
+
+/// Vectors of an attribute; empty where the primitive does not have it, otherwise one a vertex.
 template <class Vector>
-Result<std::vector<Vector>> readAttribute(const GltfFile& file, const tinygltf::Primitive& primitive,
-                                          const std::string& name) {
-  const auto found = primitive.attributes.find(name);
-  if (found == primitive.attributes.end()) return std::vector<Vector>();
-  constexpr std::size_t components = static_cast<std::size_t>(Vector::length());
-  WEFT_TRY(const std::vector<float> values, readFloats(file, found->second, components));
-  std::vector<Vector> vectors(values.size() / components);
-  for (std::size_t i = 0; i < vectors.size(); ++i)
-    for (std::size_t k = 0; k < components; ++k)
-      vectors[i][static_cast<typename Vector::length_type>(k)] = values[i * components + k];
+Result<std::vector<Vector>> readAttribute(const GltfFile& file, const Attributes& attributes,
+                                          const std::string& name, std::size_t vertexCount) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return std::vector<Vector>();
+  WEFT_TRY(std::vector<Vector> vectors, readVectors<Vector>(file, found->second));
+  if (vectors.size() != vertexCount) return file.fail("the attributes of a mesh differ in length");
   return vectors;
 }
 
-Result<std::vector<std::uint32_t>> readTriangles(const GltfFile& file, const tinygltf::Primitive& primitive,
-                                                 std::size_t vertexCount) {
+/// Vertex colours may lack their alpha.
+Result<std::vector<glm::vec4>> readColors(const GltfFile& file, const Attributes& attributes,
+                                          std::size_t vertexCount) {
+  const auto found = attributes.find("COLOR_0");
+  if (found == attributes.end()) return std::vector<glm::vec4>();
+  WEFT_TRY(const std::size_t components, componentsOf(file, found->second));
+  if (components == 4) return readAttribute<glm::vec4>(file, attributes, "COLOR_0", vertexCount);
+  WEFT_TRY(const std::vector<glm::vec3> opaque,
+           readAttribute<glm::vec3>(file, attributes, "COLOR_0", vertexCount));
+  std::vector<glm::vec4> colors;
+  for (const glm::vec3 color : opaque) colors.emplace_back(color, 1.0f);
+  return colors;
+}
+
+/// Adds the weighted differences of the morph targets.
+template <class Vector>
+Result<void> morph(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
+                   const std::vector<float>& weights, std::vector<Vector>& attribute) {
+  for (std::size_t target = 0; target < std::min(weights.size(), primitive.targets.size()); ++target) {
+    if (weights[target] == 0.0f || attribute.empty()) continue;
+    WEFT_TRY(const std::vector<glm::vec3> differences,
+             readAttribute<glm::vec3>(file, primitive.targets[target], name, attribute.size()));
+    for (std::size_t i = 0; i < differences.size(); ++i)
+      for (int k = 0; k < 3; ++k) attribute[i][k] += weights[target] * differences[i][k];
+  }
+  return {};
+}
+
+/// For every vertex the mean of its joints' matrices.
+Result<std::vector<glm::mat4>> skinMatrices(const GltfFile& file, const Attributes& attributes,
+                                            const std::vector<glm::mat4>& joints, std::size_t vertexCount) {
+  std::vector<glm::mat4> sums(vertexCount, glm::mat4(0.0f));
+  std::vector<float> total(vertexCount, 0.0f);
+  for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {
+    const std::string number = std::to_string(set);
+    WEFT_TRY(const std::vector<glm::vec4> indices,
+             readAttribute<glm::vec4>(file, attributes, "JOINTS_" + number, vertexCount));
+    WEFT_TRY(const std::vector<glm::vec4> weights,
+             readAttribute<glm::vec4>(file, attributes, "WEIGHTS_" + number, vertexCount));
+    if (weights.empty()) return file.fail("a mesh has joints without weights");
+    for (std::size_t i = 0; i < vertexCount; ++i)
+      for (int k = 0; k < 4; ++k) {
+        if (weights[i][k] == 0.0f) continue;
+        const float joint = indices[i][k];
+        if (!(joint >= 0.0f && joint < static_cast<float>(joints.size())))
+          return file.fail("a mesh names a joint that its skin does not have");
+        sums[i] += weights[i][k] * joints[static_cast<std::size_t>(joint)];
+        total[i] += weights[i][k];
+      }
+  }
+  for (std::size_t i = 0; i < vertexCount; ++i)
+    sums[i] = total[i] != 0.0f ? sums[i] / total[i] : joints.front();
+  return sums;
+}
+
+/// The inverse transpose but for a factor, whose sign is the determinant's.
+glm::mat3 cofactors(const glm::mat3& m) {
+  return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+/// Moves every vertex by its matrix.
+void skin(Mesh& mesh, const std::vector<glm::mat4>& matrices) {
+  std::size_t mirrored = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::mat3 linear(matrices[i]);
+    const float sign = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
+    mirrored += sign < 0.0f;
+    mesh.positions[i] = glm::vec3(matrices[i] * glm::vec4(mesh.positions[i], 1.0f));
+    if (!mesh.normals.empty()) mesh.normals[i] = sign * cofactors(linear) * mesh.normals[i];
+    if (!mesh.tangents.empty())
+      mesh.tangents[i] = glm::vec4(linear * glm::vec3(mesh.tangents[i]), sign * mesh.tangents[i].w);
+  }
+  // A mirrored skin shows its triangles from behind.
+  if (2 * mirrored > mesh.positions.size() && mesh.topology == Topology::Triangles)
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+      std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+}
+
+/// A primitive's mode and vertices as whole triangles, lines or points.
+struct IndexList {
+  Topology topology = Topology::Triangles;
+  std::vector<std::uint32_t> indices{};
+};
+
+Result<IndexList> asList(const GltfFile& file, int mode, const std::vector<std::uint32_t>& v) {
+  const std::size_t count = v.size();
+  const auto notMultipleOf = [&](const char* number) {
+    return file.fail(std::string("a mesh's number of vertices is not a multiple of ") + number);
+  };
+  switch (mode) {
+    case TINYGLTF_MODE_POINTS:
+      return IndexList{Topology::Points, v};
+    case TINYGLTF_MODE_LINE:
+      if (count % 2 != 0) return notMultipleOf("two");
+      return IndexList{Topology::Lines, v};
+    case -1:
+    case TINYGLTF_MODE_TRIANGLES:
+      if (count % 3 != 0) return notMultipleOf("three");
+      return IndexList{Topology::Triangles, v};
+    case TINYGLTF_MODE_LINE_STRIP:
+    case TINYGLTF_MODE_LINE_LOOP: {
+      if (count < 2) return file.fail("a mesh has a line of a single vertex");
+      IndexList list{Topology::Lines};
+      for (std::size_t i = 0; i + 1 < count; ++i) list.indices.insert(list.indices.end(), {v[i], v[i + 1]});
+      if (mode == TINYGLTF_MODE_LINE_LOOP) list.indices.insert(list.indices.end(), {v.back(), v.front()});
+      return list;
+    }
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
+    case TINYGLTF_MODE_TRIANGLE_FAN: {
+      if (count < 3) return file.fail("a mesh has a strip or fan of less than three vertices");
+      IndexList list;
+      for (std::size_t i = 0; i + 2 < count; ++i) {
+        const std::size_t odd = i % 2;  // every second triangle of a strip runs the other way round
+        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+          list.indices.insert(list.indices.end(), {v[i], v[i + 1 + odd], v[i + 2 - odd]});
+        else
+          list.indices.insert(list.indices.end(), {v[i + 1], v[i + 2], v[0]});
+      }
+      return list;
+    }
+    default:
+      return file.fail("a mesh has a mode that glTF does not know: " + std::to_string(mode));
+  }
+}
+
+Result<IndexList> readIndexList(const GltfFile& file, const tinygltf::Primitive& primitive,
+                                std::size_t vertexCount) {
   std::vector<std::uint32_t> indices(vertexCount);
   std::iota(indices.begin(), indices.end(), 0u);
   if (primitive.indices >= 0) {
     WEFT_TRY(indices, readIndices(file, primitive.indices));
   }
-  if (indices.size() % 3 != 0) return file.fail("a mesh's number of vertices is not a multiple of three");
   for (const std::uint32_t index : indices)
     if (index >= vertexCount)
       return file.fail("a mesh has index " + std::to_string(index) + ", but only " +
                        std::to_string(vertexCount) + " vertices");
-  return indices;
+  return asList(file, primitive.mode, indices);
 }
 
 /// Unit normals; one without length, which glTF forbids, becomes +Z.
@@ -58,26 +181,89 @@ bool normalize(std::vector<glm::vec4>& tangents) {
   return true;
 }
 
+/// Moves the first set of texture coordinates as the placement says, and turns the tangents with it.
+void place(Mesh& mesh, const TexturePlacement& placement) {
+  const glm::mat2 matrix = placement.matrix(), frame = placement.tangentFrame();
+  for (glm::vec2& uv : mesh.texcoords) uv = matrix * uv + placement.offset;
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    const glm::vec3 tangent(mesh.tangents[i]);
+    const glm::vec3 bitangent = mesh.tangents[i].w * glm::cross(mesh.normals[i], tangent);
+    mesh.tangents[i] = glm::vec4(frame[0].x * tangent + frame[0].y * bitangent,
+                                 mesh.tangents[i].w * glm::determinant(frame));
+  }
+}
+
+bool isFinite(const std::vector<glm::vec3>& positions) {
+  return std::all_of(positions.begin(), positions.end(), [](glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+}
+
+Result<void> readTexcoords(const GltfFile& file, const tinygltf::Primitive& primitive, const MeshDress& dress,
+                           std::vector<std::string>& warnings, Mesh& mesh) {
+  const auto nameOf = [&](std::size_t which) { return "TEXCOORD_" + std::to_string(dress.sets[which]); };
+  const std::size_t count = mesh.positions.size();
+  WEFT_TRY(mesh.texcoords, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(0), count));
+  WEFT_TRY(mesh.texcoords1, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(1), count));
+  if (mesh.texcoords.empty() && dress.usesTexcoords)
+    warnings.push_back("a mesh has no " + nameOf(0) + ": it shows a single texel");
+  mesh.texcoords.resize(count, glm::vec2(0));
+  return {};
+}
+
+/// Completes what the shaders need and the file leaves out, or has for another set of texture coordinates.
+void complete(Mesh& mesh) {
+  if (mesh.topology == Topology::Triangles) {
+    if (mesh.normals.empty()) generateNormals(mesh, NormalKind::Flat);
+    normalize(mesh.normals);
+    if (mesh.tangents.empty() || !normalize(mesh.tangents)) generateTangents(mesh);
+  } else {
+    // Lines and points have no surface: they are shown without what these would be for.
+    mesh.normals.resize(mesh.positions.size(), {0, 0, 1});
+    normalize(mesh.normals);
+    if (mesh.tangents.empty() || !normalize(mesh.tangents))
+      mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
+  }
+}
+
 }  // namespace
 
-Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive) {
-  Mesh mesh;
-  WEFT_TRY(mesh.positions, readAttribute<glm::vec3>(file, primitive, "POSITION"));
-  WEFT_TRY(mesh.normals, readAttribute<glm::vec3>(file, primitive, "NORMAL"));
-  WEFT_TRY(mesh.tangents, readAttribute<glm::vec4>(file, primitive, "TANGENT"));
-  WEFT_TRY(mesh.texcoords, readAttribute<glm::vec2>(file, primitive, "TEXCOORD_0"));
-  WEFT_TRY(mesh.indices, readTriangles(file, primitive, mesh.positions.size()));
-  const auto fits = [&](std::size_t size) { return size == 0 || size == mesh.positions.size(); };
-  if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.texcoords.size()))
-    return file.fail("the attributes of a mesh differ in length");
+Shading shadingOf(const tinygltf::Primitive& primitive) {
+  const bool hasSurface = primitive.mode == -1 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+  if (hasSurface) return Shading::Full;
+  if (!primitive.attributes.contains("NORMAL")) return Shading::Unlit;
+  return primitive.attributes.contains("TANGENT") ? Shading::Full : Shading::WithoutNormalTexture;
+}
 
-  mesh.texcoords.resize(mesh.positions.size(), glm::vec2(0));
-  if (mesh.normals.empty()) {
-    mesh.tangents.clear();  // glTF: they belong to normals that are not there
-    generateNormals(mesh, NormalKind::Flat);
+Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive,
+                                             const MeshDress& dress, const MeshPose& pose,
+                                             std::vector<std::string>& warnings) {
+  const Attributes& attributes = primitive.attributes;
+  Mesh mesh;
+  WEFT_TRY(mesh.positions, readVectors<glm::vec3>(file, attributes.at("POSITION")));
+  const std::size_t count = mesh.positions.size();
+  WEFT_TRY(mesh.normals, readAttribute<glm::vec3>(file, attributes, "NORMAL", count));
+  // glTF: without normals, tangents mean nothing.
+  if (!mesh.normals.empty() && dress.sets[0] == dress.tangentSet) {
+    WEFT_TRY(mesh.tangents, readAttribute<glm::vec4>(file, attributes, "TANGENT", count));
   }
-  normalize(mesh.normals);
-  if (mesh.tangents.empty() || !normalize(mesh.tangents)) generateTangents(mesh);
+  WEFT_TRY_VOID(readTexcoords(file, primitive, dress, warnings, mesh));
+  WEFT_TRY(mesh.colors, readColors(file, attributes, count));
+  WEFT_TRY(IndexList list, readIndexList(file, primitive, count));
+  mesh.topology = list.topology;
+  mesh.indices = std::move(list.indices);
+
+  WEFT_TRY_VOID(morph(file, primitive, "POSITION", pose.morphWeights, mesh.positions));
+  WEFT_TRY_VOID(morph(file, primitive, "NORMAL", pose.morphWeights, mesh.normals));
+  WEFT_TRY_VOID(morph(file, primitive, "TANGENT", pose.morphWeights, mesh.tangents));
+  if (!pose.joints.empty() && attributes.contains("JOINTS_0")) {
+    WEFT_TRY(const std::vector<glm::mat4> matrices, skinMatrices(file, attributes, pose.joints, count));
+    skin(mesh, matrices);
+  }
+  if (!isFinite(mesh.positions)) return file.fail("the pose of a mesh is not finite");
+  if (!mesh.normals.empty()) normalize(mesh.normals);
+  place(mesh, dress.placement);
+  complete(mesh);
   return std::make_shared<const Mesh>(std::move(mesh));
 }
 

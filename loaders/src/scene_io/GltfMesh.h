@@ -1,14 +1,28 @@
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <memory>
+#include <span>
 
 #include "GltfFile.h"
+#include "GltfMaterials.h"
 #include "weft/scenegraph/Mesh.h"
 
 namespace weft {
 
-/// One primitive made of triangles, with all attributes; normals and tangents are generated where the file
-/// has none.
-Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive);
+/// How a mesh stands: what its vertices are changed by when they are read.
+struct MeshPose {
+  std::vector<float> morphWeights{};  ///< one a morph target; those left out are 0
+  std::vector<glm::mat4> joints{};    ///< of the skin, vertex to world; empty: not skinned
+};
+
+/// What glTF says of lighting a primitive like this (glTF 2.0, 3.9.5).
+Shading shadingOf(const tinygltf::Primitive& primitive);
+
+/// One primitive as lists of triangles, lines or points, with all attributes; normals and tangents are
+/// generated, in the pose, where the file has none that fit. `warnings`: gets what the file lacks.
+Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive,
+                                             const MeshDress& dress, const MeshPose& pose,
+                                             std::vector<std::string>& warnings);
 
 }  // namespace weft

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,37 @@
 
 namespace weft {
 
+/// An extension that Weft does not know, or an application's extras, kept as data.
+struct GltfData {
+  std::string place;  ///< JSON pointer to the object that has it: "/nodes/3"; "" for the file itself
+  std::string name;   ///< of the extension, or "extras"
+  std::string json;   ///< its value, as JSON text
+};
+
+/// A material as a file describes it, for a program that makes materials of its own.
+struct GltfMaterial {
+  std::filesystem::path file;  ///< references in the JSON are relative to its folder
+  std::string name;
+  std::string json;  ///< the whole object, extensions and extras included
+};
+
 struct GltfOptions {
   /// Materials to use instead of the file's, by its names for them; "*" for all that are not named. What they
   /// replace is not read.
-  std::map<std::string, std::shared_ptr<const Material>> replacements;
+  std::map<std::string, std::shared_ptr<const Material>> replacements{};
   bool lights = true;  ///< false leaves the file's lights out, for a program that brings its own
   /// For materials with WEFT_materials_btf; textureScale is multiplied by the extension's `scale`.
-  BTFMaterialOptions btf;
+  BTFMaterialOptions btf{};
+  /// Poses the scene as one of its animations has it so many seconds after its start; none: as it was
+  /// modelled. Before the first and after the last key a value stays as it is there.
+  std::optional<double> time{};
+  std::string animation{};  ///< the name of that animation; empty: the first
+  /// Makes the materials that are not replaced; null leaves one to Weft.
+  std::function<Result<std::shared_ptr<const Material>>(const GltfMaterial&)> makeMaterial{};
+  /// The program's own extensions, by name, which files may then require. Each is called wherever the file
+  /// has it, once the scene is complete; `node` is the one that came out of a glTF node of the scene,
+  /// otherwise null.
+  std::map<std::string, std::function<Result<void>(const GltfData&, Node* node)>> extensions{};
 };
 
 /// A glTF file as Weft's scene graph.
@@ -30,23 +56,33 @@ struct GltfScene {
     std::string name;  ///< of the camera, or else of its node; may be empty
     Camera camera;
   };
+  struct Animation {
+    std::string name;
+    double seconds;  ///< from 0 to the last key
+  };
 
   std::shared_ptr<Node> root;
   std::vector<NamedCamera> cameras;    ///< perspective ones, in the order of their nodes
   std::vector<std::string> materials;  ///< names of all materials that something is drawn with; "" has none
-  int lights = 0;                      ///< point and directional
+  std::vector<Animation> animations;   ///< all that the file has
+  std::vector<GltfData> data;          ///< unknown extensions and extras, in the order of the file
+  int lights = 0;
   Bounds bounds;
-  std::vector<std::string> warnings;  ///< what of the file is not shown, a sentence each
+  std::vector<std::string> warnings;  ///< what of the file is not shown, or not as it says, a sentence each
 };
 
-/// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, triangles, point and directional lights
-/// (KHR_lights_punctual), perspective cameras, materials.
+/// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, meshes of every kind of primitive
+/// (morphed and skinned as they stand at the time that the options name), lights (KHR_lights_punctual),
+/// perspective cameras, materials.
 ///
 /// A material with `WEFT_materials_btf` (`uri` of a .rf.exr beside the file, `scale`) becomes a BTFMaterial,
-/// any other a LambertMaterial of its base colour. Normals and tangents that a file leaves out are
-/// generated. Files are not trusted: everything is checked against its bounds. Fails, with file and reason,
-/// on anything broken, on a missing buffer, .rf.exr or base colour texture, and where nothing is drawn.
-/// Touches no GL.
+/// any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular without textures, _unlit,
+/// KHR_texture_transform; two of a primitive's sets of texture coordinates). Normals and tangents that a file
+/// leaves out are generated. An image that is missing or broken is left out with a warning.
+///
+/// Files are not trusted: everything is checked against its bounds. Fails, with file and reason, on anything
+/// broken, on a missing buffer or .rf.exr, on a required extension that neither Weft nor the options know,
+/// and where nothing is drawn. Touches no GL.
 Result<GltfScene> loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstring>
+
+#include "GltfFile.h"
+
+namespace weft {
+
+/// An accessor as floats, `components` an element, sparse ones filled in; integers are normalised where the
+/// file says so. Refuses values that are not finite.
+Result<std::vector<float>> readFloats(const GltfFile& file, int accessor, std::size_t components);
+
+/// An accessor of whole numbers: vertex indices.
+Result<std::vector<std::uint32_t>> readIndices(const GltfFile& file, int accessor);
+
+/// How many numbers an element of an accessor has.
+Result<std::size_t> componentsOf(const GltfFile& file, int accessor);
+
+/// An accessor of vectors (or, with 16 components, of matrices).
+template <class Vector, std::size_t components = static_cast<std::size_t>(Vector::length())>
+Result<std::vector<Vector>> readVectors(const GltfFile& file, int accessor) {
+  WEFT_TRY(const std::vector<float> values, readFloats(file, accessor, components));
+  static_assert(sizeof(Vector) == components * sizeof(float));
+  std::vector<Vector> vectors(values.size() / components);
+  std::memcpy(static_cast<void*>(vectors.data()), values.data(), values.size() * sizeof(float));
+  return vectors;
+}
+
+}  // namespace weft

@@ -1,0 +1,71 @@
+#include "GltfData.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 8> kKnownExtensions{
+    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",     "KHR_materials_specular",
+    "KHR_materials_unlit",   "KHR_mesh_quantization",
+    "KHR_texture_transform", "WEFT_materials_btf"};
+
+std::string textOf(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A JSON pointer's token: "~" and "/" would end it.
+std::string escaped(const std::string& key) {
+  std::string token;
+  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return token;
+}
+
+/// Descends by recursion: readGltfFile() has seen to it that the text is not nested deeply.
+void collect(const Json& value, const std::string& place, std::vector<GltfData>& data) {
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) collect(value[i], place + "/" + std::to_string(i), data);
+  if (!value.is_object()) return;
+  for (const auto& [key, member] : value.items()) {
+    if (key == "extras") {
+      data.push_back({place, key, textOf(member)});
+    } else if (key == "extensions" && member.is_object()) {
+      for (const auto& [name, extension] : member.items())
+        if (isKnownExtension(name))
+          collect(extension, place + "/extensions/" + escaped(name), data);
+        else
+          data.push_back({place, name, textOf(extension)});
+    } else {
+      collect(member, place + "/" + escaped(key), data);
+    }
+  }
+}
+
+}  // namespace
+
+bool isKnownExtension(std::string_view name) {
+  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
+}
+
+GltfContents contentsOf(std::string_view json) {
+  GltfContents contents;
+  const Json root = Json::parse(json, nullptr, false);
+  if (!root.is_object()) return contents;
+  collect(root, "", contents.data);
+  if (const auto materials = root.find("materials"); materials != root.end() && materials->is_array())
+    for (const Json& material : *materials) contents.materials.push_back(textOf(material));
+  if (const auto required = root.find("extensionsRequired"); required != root.end() && required->is_array())
+    for (const Json& name : *required)
+      if (name.is_string()) contents.required.push_back(name.get<std::string>());
+  if (const auto asset = root.find("asset"); asset != root.end() && asset->is_object())
+    if (const auto version = asset->find("version"); version != asset->end() && version->is_string())
+      contents.version = version->get<std::string>();
+  return contents;
+}
+
+}  // namespace weft
