@@ -27,8 +27,7 @@ Result<std::unique_ptr<FileCollection>> openFolder(const std::filesystem::path& 
 /// Files named relative to a folder.
 std::unique_ptr<FileCollection> listedFiles(std::filesystem::path folder, std::vector<std::string> names);
 
-/// All files in a zip, in its order. Entries are unpacked one at a time, because libzip's handles are not
-/// thread safe; for JPEGs and PNGs that costs a few percent of decoding them.
+/// All files in a zip, in its order.
 Result<std::unique_ptr<FileCollection>> openZip(const std::filesystem::path& path);
 
 }  // namespace weft
