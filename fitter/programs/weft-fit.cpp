@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "weft/fitter/FieldEvaluation.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
@@ -28,6 +29,7 @@ struct Arguments {
   std::vector<int> crop;
   double memoryGibibytes = 4.0;
   double maximumError = 0.0;  // 0: no bound
+  std::filesystem::path report;
   FitOptions fit;
 };
 
@@ -78,6 +80,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--max-error", a.maximumError,
                  "end with exit code 3 if the average eps of stored luminance is above this")
       ->check(CLI::PositiveNumber);
+  app.add_option("--report", a.report, "write the errors, and where they are, as a page: FILE.html");
 }
 
 // The folder of finished rows.
@@ -99,19 +102,6 @@ FitOptions fitOptions(const Arguments& a) {
   if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
   options.partsFolder = partsOf(a.output);
   return options;
-}
-
-void printErrors(const char* title, const FitErrors& errors) {
-  fmt::print("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "avg", "min", "max", "95 %", "rmse");
-  for (const auto& [label, space, measure] :
-       {std::tuple("stored luminance", ErrorSpace::Stored, ErrorMeasure::Luminance),
-        std::tuple("stored RGB", ErrorSpace::Stored, ErrorMeasure::Rgb),
-        std::tuple("linear luminance", ErrorSpace::Linear, ErrorMeasure::Luminance),
-        std::tuple("linear RGB", ErrorSpace::Linear, ErrorMeasure::Rgb)}) {
-    const ErrorStatistics& s = errors.of(space, measure);
-    fmt::print("{:<18} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", label, s.average, s.minimum,
-               s.maximum, s.percentile95, s.rootMeanSquare);
-  }
 }
 
 Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
@@ -158,12 +148,15 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
   report["peak_memory_bytes"] = peakMemoryBytes();
   report["threads"] = tool.threads();
   WEFT_TRY_VOID(tool.writeJson(report));
+  if (!arguments.report.empty())
+    WEFT_TRY_VOID(
+        writeFieldReport(result.field, {result.errors, result.heldOut, result.texels, {}}, arguments.report));
 
   if (!tool.quiet() && !tool.jsonOnStdout()) {
     fmt::print("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(), result.field.width(),
                result.field.height(), measured.views.size(), measured.lights.size());
-    printErrors("eps (Meseth eq. 2)", result.errors);
-    if (result.heldOut) printErrors("of held-out pairs", *result.heldOut);
+    fmt::print("{}", toText("eps (Meseth eq. 2)", result.errors));
+    if (result.heldOut) fmt::print("{}", toText("of held-out pairs", *result.heldOut));
   }
   const double error = result.errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance).average;
   return arguments.maximumError > 0.0 && error > arguments.maximumError ? ExitCode::BoundMissed

@@ -4,34 +4,20 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "MemoryBtf.h"
+#include "ClothZip.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
-#include "weft/io/BtfWriter.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::clothZip;
 using test::ProgramRun;
 using test::runProgram;
 using testing::AllOf;
 using testing::HasSubstr;
-
-// A small cloth of two colours with a soft highlight, as a measurement.
-fs::path clothZip(const fs::path& folder) {
-  const test::MemoryBtf cloth(3, 2, [](int x, int y, glm::vec3, glm::vec3 l) {
-    const glm::vec3 color = (x + y) % 2 ? glm::vec3(0.6f, 0.3f, 0.2f) : glm::vec3(0.2f, 0.3f, 0.6f);
-    return l.z * (color + glm::vec3(0.2f * l.x * l.x));
-  });
-  BtfDescription description = cloth.description();
-  description.name = "CLOTH";
-  const fs::path zip = folder / "cloth.zip";
-  test::requireDone(writeBtfZip(zip, description,
-                                [&](int view, std::span<float> out) { return cloth.readView(view, out); }));
-  return zip;
-}
 
 void expectRefused(const ProgramRun& run, int exitCode, const std::string& message) {
   EXPECT_EQ(run.exitCode, exitCode) << run.err;

@@ -23,6 +23,12 @@ std::vector<bool> amongOthers(const std::vector<glm::vec3>& directions,
 
 }  // namespace
 
+FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors::*part) {
+  std::vector<TexelErrors> errors;
+  for (const SplitErrors& texel : texels) errors.push_back(texel.*part);
+  return summarize(errors);
+}
+
 ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& description,
                        const BtfDescription& measured)
     : formula_(std::move(formula)),

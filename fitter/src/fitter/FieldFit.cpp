@@ -22,16 +22,6 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source) {
-  if (!wanted) return Crop{0, 0, source.width, source.height};
-  const Crop& c = *wanted;
-  if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.width > source.width - c.x ||
-      c.height > source.height - c.y)
-    return fail(fmt::format("the crop {} {} {} {} is not inside the {} x {} texels", c.x, c.y, c.width,
-                            c.height, source.width, source.height));
-  return c;
-}
-
 std::vector<glm::vec3> without(const std::vector<glm::vec3>& directions, const std::vector<bool>& left) {
   std::vector<glm::vec3> rest;
   for (std::size_t i = 0; i < directions.size(); ++i)
@@ -86,13 +76,17 @@ struct RowRange {
   int count = 0;
 };
 
-FitErrors summaryOf(const std::vector<SplitErrors>& texels, TexelErrors SplitErrors::*part) {
-  std::vector<TexelErrors> errors;
-  for (const SplitErrors& texel : texels) errors.push_back(texel.*part);
-  return summarize(errors);
-}
-
 }  // namespace
+
+Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source) {
+  if (!wanted) return Crop{0, 0, source.width, source.height};
+  const Crop& c = *wanted;
+  if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.width > source.width - c.x ||
+      c.height > source.height - c.y)
+    return fail(fmt::format("the crop {} {} {} {} is not inside the {} x {} texels", c.x, c.y, c.width,
+                            c.height, source.width, source.height));
+  return c;
+}
 
 Result<void> FitOptions::validate() const {
   if (memory < (std::size_t{64} << 20))
@@ -242,9 +236,9 @@ Result<FitResult> FieldFit::finish() {
     data.rows.shared.setPrecision(Precision::Half);
     data.rows.layers.setPrecision(Precision::Half);
   }
-  const FitErrors errors = summaryOf(data.rows.errors, &SplitErrors::fitted);
+  const FitErrors errors = summarize(data.rows.errors, &SplitErrors::fitted);
   std::optional<FitErrors> heldOut;
-  if (data.meter.holdsOut()) heldOut = summaryOf(data.rows.errors, &SplitErrors::heldOut);
+  if (data.meter.holdsOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
   data.description.fitReport = toJson(errors, heldOut);
   WEFT_TRY(ReflectanceField field,
            ReflectanceField::create(data.model, std::move(data.description), std::move(data.rows.shared),

@@ -1,8 +1,11 @@
 #include "weft/fitter/FitErrors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "weft/core/Color.h"
 
@@ -124,6 +127,21 @@ std::string toJson(const FitErrors& errors, const std::optional<FitErrors>& held
   nlohmann::ordered_json json = jsonOf(errors);
   json["held_out"] = heldOut ? jsonOf(*heldOut) : nlohmann::ordered_json();
   return json.dump();
+}
+
+std::string toText(const std::string& title, const FitErrors& errors) {
+  std::string text =
+      fmt::format("{:<18} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "avg", "min", "max", "95 %", "rmse");
+  for (const auto& [label, space, measure] :
+       {std::tuple("stored luminance", ErrorSpace::Stored, ErrorMeasure::Luminance),
+        std::tuple("stored RGB", ErrorSpace::Stored, ErrorMeasure::Rgb),
+        std::tuple("linear luminance", ErrorSpace::Linear, ErrorMeasure::Luminance),
+        std::tuple("linear RGB", ErrorSpace::Linear, ErrorMeasure::Rgb)}) {
+    const ErrorStatistics& s = errors.of(space, measure);
+    text += fmt::format("{:<18} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}\n", label, s.average, s.minimum,
+                        s.maximum, s.percentile95, s.rootMeanSquare);
+  }
+  return text;
 }
 
 }  // namespace weft

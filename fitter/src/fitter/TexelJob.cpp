@@ -13,7 +13,7 @@ TexelJob::TexelJob(const BtfDescription& measured, const FitOptions& options, co
     : measured_(measured), options_(options), meter_(meter), fitter_(fitter), model_(model) {}
 
 void TexelJob::fit(const SampleRows& rows, int row, int column, FittedRows& to, int x, int y) const {
-  const Samples samples = samplesOf(rows, row, column);
+  const TexelSamples samples = texelSamples(rows, measured_, row, column);
   const std::span<float> shared = to.shared.texel(x, y);
   const std::size_t channels = to.layers.channels().size();
   std::vector<float> layers(static_cast<std::size_t>(to.layers.layers()) * channels);
@@ -32,25 +32,6 @@ void TexelJob::fit(const SampleRows& rows, int row, int column, FittedRows& to, 
             static_cast<std::size_t>(x)] = meter_.measure(shared, layers, samples.linear, samples.stored);
 }
 
-// Numbers that are none become black.
-TexelJob::Samples TexelJob::samplesOf(const SampleRows& rows, int row, int column) const {
-  Samples samples{std::vector<glm::vec3>(rows.pairs()), std::vector<glm::vec3>(rows.pairs())};
-  rows.linear(row, column, samples.linear);
-  if (measured_.storedAsBytes && measured_.cosineInData) {
-    rows.stored(row, column, samples.stored);
-    return samples;
-  }
-  const std::size_t lights = measured_.lights.size();
-  for (std::size_t i = 0; i < samples.linear.size(); ++i) {
-    glm::vec3& sample = samples.linear[i];
-    if (!std::isfinite(sample.x + sample.y + sample.z)) sample = glm::vec3(0.0f);
-    if (!measured_.cosineInData) sample *= std::max(measured_.lights[i % lights].z, 0.0f);
-  }
-  samples.stored = samples.linear;
-  encodeAll(measured_.encoding, floatsOf(samples.stored));
-  return samples;
-}
-
 // Without the pairs that are held out.
 std::vector<glm::vec3> TexelJob::fittedOf(const std::vector<glm::vec3>& all) const {
   std::vector<glm::vec3> fitted;
@@ -66,13 +47,14 @@ Encoding TexelJob::displayEncoding() const {
   return measured_.encoding == Encoding::Linear ? Encoding::Gamma22 : measured_.encoding;
 }
 
-std::vector<glm::vec3> TexelJob::displayed(const Samples& samples) const {
+std::vector<glm::vec3> TexelJob::displayed(const TexelSamples& samples) const {
   std::vector<glm::vec3> values = samples.stored;
   if (measured_.encoding == Encoding::Linear) encodeAll(displayEncoding(), floatsOf(values));
   return values;
 }
 
-void TexelJob::fitChannels(const Samples& samples, std::span<float> shared, std::span<float> layers) const {
+void TexelJob::fitChannels(const TexelSamples& samples, std::span<float> shared,
+                           std::span<float> layers) const {
   const bool linear = options_.space == FitSpace::Linear;
   const std::vector<glm::vec3>& values = linear ? samples.linear : samples.stored;
   const glm::vec3 baseColor = linear ? fitBaseColor(values) : fitPlainBaseColor(values);

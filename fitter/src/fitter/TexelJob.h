@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "FittedRows.h"
+#include "TexelSamples.h"
 #include "weft/fitter/ErrorMeter.h"
 #include "weft/fitter/FieldFit.h"
 
@@ -21,16 +22,10 @@ class TexelJob {
   void fit(const SampleRows& samples, int row, int column, FittedRows& to, int x, int y) const;
 
  private:
-  struct Samples {
-    std::vector<glm::vec3> linear;  // [view][light], n.l included
-    std::vector<glm::vec3> stored;
-  };
-
-  Samples samplesOf(const SampleRows& rows, int row, int column) const;
   std::vector<glm::vec3> fittedOf(const std::vector<glm::vec3>& all) const;
   Encoding displayEncoding() const;
-  std::vector<glm::vec3> displayed(const Samples& samples) const;
-  void fitChannels(const Samples& samples, std::span<float> shared, std::span<float> layers) const;
+  std::vector<glm::vec3> displayed(const TexelSamples& samples) const;
+  void fitChannels(const TexelSamples& samples, std::span<float> shared, std::span<float> layers) const;
 
   const BtfDescription& measured_;
   const FitOptions& options_;

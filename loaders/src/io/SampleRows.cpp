@@ -27,16 +27,24 @@ Result<void> SampleRows::allocate(const BtfDescription& description, int rows) {
   return {};
 }
 
+std::span<const std::uint8_t> SampleRows::bytes() const {
+  WEFT_EXPECT(storedAsBytes_, "the samples are bytes");
+  return {static_cast<const std::uint8_t*>(memory_.get()), sampleCount()};
+}
+
 std::span<std::uint8_t> SampleRows::bytes() {
   WEFT_EXPECT(storedAsBytes_, "the samples are bytes");
-  return {static_cast<std::uint8_t*>(memory_.get()),
-          static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_) * pairs_ * 3};
+  return {static_cast<std::uint8_t*>(memory_.get()), sampleCount()};
+}
+
+std::span<const float> SampleRows::floats() const {
+  WEFT_EXPECT(!storedAsBytes_, "the samples are floats");
+  return {static_cast<const float*>(memory_.get()), sampleCount()};
 }
 
 std::span<float> SampleRows::floats() {
   WEFT_EXPECT(!storedAsBytes_, "the samples are floats");
-  return {static_cast<float*>(memory_.get()),
-          static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_) * pairs_ * 3};
+  return {static_cast<float*>(memory_.get()), sampleCount()};
 }
 
 template <class T>

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "MemoryBtf.h"
+#include "Samples.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
 
@@ -105,6 +106,54 @@ TEST(RawBtf, NumbersThatAreNoneCountAsBlack) {
   const RawBtf btf = valueOf(RawBtf::read(source));
   expectNear(btf.evaluate(0, 0, {0, 0, 1}, {0, 0, 1}), glm::vec3(0.0f), 0.0f);
   EXPECT_GT(btf.evaluate(0, 0, directionFromDegrees(7.0, 0.0), {0, 0, 1}).x, 0.2f);
+}
+
+TEST(RawBtf, IsASourceOfItsTexels) {
+  const MemoryBtf source(5, 4,
+                         [](int x, int y, glm::vec3 v, glm::vec3 l) { return l.z * rough(x, y, v, l); });
+  const RawBtf btf = valueOf(RawBtf::read(source, Crop{2, 1, 3, 2}));
+  EXPECT_EQ(btf.description().width, 3);
+  EXPECT_EQ(btf.description().height, 2);
+  SampleRows row;
+  test::requireDone(btf.readRows(1, 1, row));
+  EXPECT_EQ(row.rows(), 1);
+  const SampleRows all = test::allRows(source);
+  for (int x = 0; x < 3; ++x)
+    for (std::size_t pair = 0; pair < all.pairs(); pair += 7)
+      EXPECT_EQ(test::linearSample(row, x, 0, pair), test::linearSample(all, x + 2, 2, pair));
+  EXPECT_FALSE(RawBtf::read(source, Crop{3, 0, 3, 2}));
+}
+
+TEST(RawBtf, KeepsTheBytesOfPhotographs) {
+  WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
+  const auto source = valueOf(openBtf(file));
+  const RawBtf btf = valueOf(RawBtf::read(*source, Crop{10, 20, 2, 1}));
+  SampleRows rows, row;
+  test::requireDone(source->readRows(20, 1, rows));
+  test::requireDone(btf.readRows(0, 1, row));
+  for (int x = 0; x < 2; ++x)
+    for (std::size_t pair = 0; pair < rows.pairs(); ++pair)
+      ASSERT_EQ(test::linearSample(row, x, 0, pair), test::linearSample(rows, x + 10, 0, pair));
+}
+
+TEST(OneViewBtf, IsTheMeasurementSeenFromThere) {
+  const MemoryBtf source(3, 2,
+                         [](int x, int y, glm::vec3 v, glm::vec3 l) { return l.z * rough(x, y, v, l); });
+  const RawBtf raw = valueOf(RawBtf::read(source));
+  std::vector<glm::vec3> lights = source.description().lights;
+  lights.push_back(directionFromDegrees(20.0, 77.0));
+  const glm::vec3 view = source.description().views[30];
+  const OneViewBtf one(raw, view, lights);
+  EXPECT_EQ(one.description().views, std::vector<glm::vec3>{view});
+  SampleRows row;
+  test::requireDone(one.readRows(1, 1, row));
+  ASSERT_EQ(row.pairs(), 82u);
+  for (int x = 0; x < 3; ++x)
+    for (std::size_t light = 0; light < lights.size(); ++light)
+      expectNear(test::linearSample(row, x, 0, light),
+                 light < 81 ? lights[light].z * rough(x, 1, view, lights[light])
+                            : raw.evaluate(x, 1, lights[light], view),
+                 1e-4f);
 }
 
 }  // namespace

@@ -16,6 +16,9 @@ struct SplitErrors {
   TexelErrors heldOut;
 };
 
+/// summarize() of one part: `summarize(texels, &SplitErrors::heldOut)`.
+FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors::*part);
+
 /// Compares the numbers of texels with all their samples: what weft-fit and weft-eval report. Thread safe.
 class ErrorMeter {
  public:

@@ -20,6 +20,9 @@ struct Crop {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// The texels to work on: all without a wish. Fails on a rectangle that is not inside the measurement.
+Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source);
+
 /// The values that a fit minimises the errors of.
 enum class FitSpace {
   Linear,  ///< linear values, residuals weighted as a display shows them: light adds up in these

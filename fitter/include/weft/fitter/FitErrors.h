@@ -68,4 +68,7 @@ FitErrors summarize(std::span<const TexelErrors> texels);
 /// held-out pairs as `held_out` (null without), as JSON text, without time, host or path.
 std::string toJson(const FitErrors& errors, const std::optional<FitErrors>& heldOut = {});
 
+/// The errors as a table of text, `title` in its corner; with a line end.
+std::string toText(const std::string& title, const FitErrors& errors);
+
 }  // namespace weft

@@ -37,13 +37,18 @@ class SampleRows {
   /// For sources: all samples, `[row][column][view][light][rgb]`; bytes() as stored, floats() linear. Only
   /// the one that BtfDescription::storedAsBytes says may be asked for.
   std::span<std::uint8_t> bytes();
+  std::span<const std::uint8_t> bytes() const;
   std::span<float> floats();
+  std::span<const float> floats() const;
 
  private:
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
   };
 
+  std::size_t sampleCount() const {
+    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_) * pairs_ * 3;
+  }
   template <class T>
   const T* samplesOf(int row, int column, std::span<glm::vec3> out, std::size_t firstPair) const;
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "weft/core/FloatImage.h"
+#include "weft/core/Progress.h"
+#include "weft/core/Result.h"
+#include "weft/fitter/ErrorMeter.h"
+#include "weft/fitter/FitErrors.h"
+#include "weft/fitter/FieldFit.h"
+#include "weft/fitter/HtmlReport.h"
+#include "weft/io/BtfSource.h"
+#include "weft/reflectance/ReflectanceField.h"
+
+namespace weft {
+
+/// "rfnl, 2 lobes, rho_d per view": a model for people.
+std::string labelOf(const ModelDescription& model);
+
+/// What was measured and what a field gives for one pair of directions: linear RGB, n.l included.
+struct PairPictures {
+  glm::vec3 view;
+  glm::vec3 light;
+  FloatImage measured;
+  FloatImage model;
+};
+
+/// How well a field reproduces a measurement.
+struct FieldEvaluation {
+  FitErrors errors;                  ///< over the pairs that were fitted
+  std::optional<FitErrors> heldOut;  ///< over the others, if there are any
+  std::vector<SplitErrors> texels;   ///< row by row
+  std::vector<PairPictures> pairs;   ///< a few, from the top to the lowest view
+};
+
+/// Compares a field with all pairs of a measurement, or of the part of it that `crop` names; its rows are
+/// read in blocks within `memory` bytes, texels are compared in parallel. Fails where they differ in size.
+Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSource& source,
+                                      const std::optional<Crop>& crop, std::size_t memory,
+                                      const Progress& progress = {});
+
+/// One value a texel: eps of stored luminance (paper M eq. 2) over the pairs that were fitted.
+FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int height);
+
+/// "0.0123 min .. max" of every space and measure as rows of a table.
+ReportTable errorTable(const FitErrors& errors, std::string caption);
+
+/// The report of weft-fit and weft-eval: errors, where they are, and some pictures beside the measured ones.
+Result<void> writeFieldReport(const ReflectanceField& field, const FieldEvaluation& evaluation,
+                              const std::filesystem::path& path);
+
+}  // namespace weft

@@ -1,0 +1,179 @@
+#include "weft/fitter/FieldEvaluation.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <string_view>
+#include <tuple>
+
+#include "TexelSamples.h"
+#include "weft/core/Direction.h"
+#include "weft/io/ImageFile.h"
+
+namespace weft {
+namespace {
+
+/// The measured direction nearest to one.
+std::size_t nearestTo(const std::vector<glm::vec3>& directions, glm::vec3 wanted) {
+  const auto nearest = std::ranges::max_element(
+      directions, {}, [&](glm::vec3 direction) { return glm::dot(direction, wanted); });
+  return static_cast<std::size_t>(nearest - directions.begin());
+}
+
+/// Pairs that show most of what there is to see: light along and across the view, high and low.
+struct ShownPair {
+  std::size_t view, light;
+};
+
+std::vector<ShownPair> shownPairs(const BtfDescription& measured) {
+  std::vector<ShownPair> pairs;
+  for (const auto& [view, light] : {std::pair(directionFromDegrees(0, 0), directionFromDegrees(45, 180)),
+                                    std::pair(directionFromDegrees(45, 0), directionFromDegrees(30, 90)),
+                                    std::pair(directionFromDegrees(75, 0), directionFromDegrees(60, 180))})
+    pairs.push_back({nearestTo(measured.views, view), nearestTo(measured.lights, light)});
+  return pairs;
+}
+
+/// The parameters of one texel as ErrorMeter wants them, `[layer][channel]`.
+std::vector<float> layersOf(const ReflectanceField& field, int x, int y) {
+  std::vector<float> numbers;
+  for (int layer = 0; layer < field.layers().layers(); ++layer)
+    std::ranges::copy(field.layers().texel(x, y, layer), std::back_inserter(numbers));
+  return numbers;
+}
+
+void put(FloatImage& image, int x, int y, glm::vec3 rgb) {
+  for (int channel = 0; channel < 3; ++channel) image.at(x, y, channel) = rgb[channel];
+}
+
+std::string degrees(glm::vec3 direction) {
+  const glm::dvec2 angles = degreesFromDirection(direction);
+  return fmt::format("({:.0f}, {:.0f})", angles.x, angles.y);
+}
+
+Result<void> addPairs(HtmlReport& report, const std::vector<PairPictures>& pairs) {
+  report.heading("Pictures");
+  report.paragraph(
+      "The measured texels and what the model gives for them, views and lights as (polar angle, azimuth) in "
+      "degrees.");
+  for (const PairPictures& pair : pairs) {
+    WEFT_TRY(Image measured, displayImage(pair.measured));
+    WEFT_TRY(Image model, displayImage(pair.model));
+    const std::string place = fmt::format("view {}, light {}", degrees(pair.view), degrees(pair.light));
+    WEFT_TRY_VOID(report.pictures(std::array{ReportPicture{std::move(measured), "Measured: " + place},
+                                             ReportPicture{std::move(model), "Model: " + place}}));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string labelOf(const ModelDescription& model) {
+  std::string label = model.name;
+  if (model.lobes > 0) label += fmt::format(", {} {}", model.lobes, model.lobes == 1 ? "lobe" : "lobes");
+  if (model.diffuseAlbedo == DiffuseAlbedo::PerView) label += ", rho_d per view";
+  if (model.color == FitColor::Rgb) label += ", RGB";
+  return label;
+}
+
+Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSource& source,
+                                      const std::optional<Crop>& wanted, std::size_t memory,
+                                      const Progress& progress) {
+  const BtfDescription& measured = source.description();
+  WEFT_TRY(const Crop crop, checkedCrop(wanted, measured));
+  if (crop.width != field.width() || crop.height != field.height())
+    return fail(fmt::format("the field has {} x {} texels and the measurement {} x {}", field.width(),
+                            field.height(), crop.width, crop.height),
+                measured.name, "name the texels that were fitted: --crop");
+  const ErrorMeter meter(field.formula(), field.description(), measured);
+  FieldEvaluation evaluation;
+  evaluation.texels.resize(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height));
+  const std::vector<ShownPair> shown = shownPairs(measured);
+  for (const ShownPair pair : shown)
+    evaluation.pairs.push_back({measured.views[pair.view], measured.lights[pair.light],
+                                FloatImage(crop.width, crop.height, {"R", "G", "B"}),
+                                FloatImage(crop.width, crop.height, {"R", "G", "B"})});
+
+  const int rowsAtOnce = std::min(source.rowsWithin(memory), crop.height);
+  SampleRows rows;
+  for (int first = 0; first < crop.height; first += rowsAtOnce) {
+    const int count = std::min(rowsAtOnce, crop.height - first);
+    WEFT_TRY_VOID(source.readRows(crop.y + first, count, rows));
+    tbb::parallel_for(0, count * crop.width, [&](int i) {
+      const int x = i % crop.width;
+      const int y = first + i / crop.width;
+      const TexelSamples samples = texelSamples(rows, measured, y - first, crop.x + x);
+      evaluation.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
+                        static_cast<std::size_t>(x)] =
+          meter.measure(field.shared().texel(x, y), layersOf(field, x, y), samples.linear, samples.stored);
+      for (std::size_t k = 0; k < shown.size(); ++k) {
+        PairPictures& pair = evaluation.pairs[k];
+        put(pair.measured, x, y, samples.linear[shown[k].view * measured.lights.size() + shown[k].light]);
+        put(pair.model, x, y, field.evaluate(x, y, pair.light, pair.view));
+      }
+    });
+    if (progress) progress(static_cast<double>(first + count) / crop.height);
+  }
+  evaluation.errors = summarize(evaluation.texels, &SplitErrors::fitted);
+  if (meter.holdsOut()) evaluation.heldOut = summarize(evaluation.texels, &SplitErrors::heldOut);
+  return evaluation;
+}
+
+FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int height) {
+  FloatImage map(width, height, {"eps"});
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const TexelErrors& fitted = texels[i].fitted;
+    map.values()[i] =
+        static_cast<float>(fitted.sums[0][0].absolute / std::max(static_cast<double>(fitted.pairs), 1.0));
+  }
+  return map;
+}
+
+ReportTable errorTable(const FitErrors& errors, std::string caption) {
+  ReportTable table{std::move(caption), {"eps", "avg", "min", "max", "95 %", "RMSE", "PSNR, dB"}, {}};
+  for (const auto& [label, space, measure] :
+       {std::tuple("stored luminance", ErrorSpace::Stored, ErrorMeasure::Luminance),
+        std::tuple("stored RGB", ErrorSpace::Stored, ErrorMeasure::Rgb),
+        std::tuple("linear luminance", ErrorSpace::Linear, ErrorMeasure::Luminance),
+        std::tuple("linear RGB", ErrorSpace::Linear, ErrorMeasure::Rgb)}) {
+    const ErrorStatistics& s = errors.of(space, measure);
+    std::vector<std::string> row{label};
+    for (const double value : {s.average, s.minimum, s.maximum, s.percentile95, s.rootMeanSquare})
+      row.push_back(fmt::format("{:.4f}", value));
+    row.push_back(fmt::format("{:.1f}", s.psnr));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Result<void> writeFieldReport(const ReflectanceField& field, const FieldEvaluation& evaluation,
+                              const std::filesystem::path& path) {
+  const ReflectanceFieldDescription& description = field.description();
+  HtmlReport report(fmt::format("{}: {}", description.source, labelOf(field.model().description())));
+  report.paragraph(fmt::format("{} x {} texels, {} views, {} lights.", field.width(), field.height(),
+                               description.views.size(), description.lights.size()));
+  report.heading("Errors");
+  report.paragraph(
+      "eps is the mean absolute difference over all pairs of view and light, for each texel (eq. 2 of Meseth "
+      "et al. 2004); "
+      "average, extremes and 95th percentile are over texels. Stored values are encoded as the measurement "
+      "is, linear ones are proportional to light.");
+  report.table(errorTable(evaluation.errors, "Over the pairs that were fitted."));
+  report.paragraph(fmt::format("Views at 60 degrees and lower: eps of stored luminance is {:.4f}.",
+                               evaluation.errors.grazing));
+  if (evaluation.heldOut)
+    report.table(errorTable(*evaluation.heldOut, "Over pairs whose view or light was held out of the fit."));
+  const ErrorStatistics& stored = evaluation.errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance);
+  const ColorScale scale{static_cast<float>(stored.minimum), static_cast<float>(stored.maximum),
+                         "eps of stored luminance"};
+  WEFT_TRY_VOID(report.pictures(
+      std::array{ReportPicture{colorMapped(errorMap(evaluation.texels, field.width(), field.height()), scale),
+                               "Where the errors are: eps of every texel.", scale}}));
+  if (!evaluation.pairs.empty()) WEFT_TRY_VOID(addPairs(report, evaluation.pairs));
+  return report.write(path);
+}
+
+}  // namespace weft
