@@ -126,8 +126,10 @@ class TexelFit {
     previous.insert(previous.end(), parameters_.begin(),
                     parameters_.end() - static_cast<std::ptrdiff_t>(stride_));
     tryStarts(std::move(previous));
-    improve(DiffuseSolve::Solve, 10);
   }
+
+  // Lets every view keep a diffuse albedo of its own.
+  void polish() { improve(DiffuseSolve::Solve, 10); }
 
   // Lets all views have one diffuse albedo: the best for the lobes, then the best lobes for it, in turn.
   void shareDiffuse() {
@@ -207,10 +209,11 @@ class TexelFit {
   // Follows a start of every view a few iterations and keeps it where it is the best so far.
   void tryStarts(std::vector<float> starts) {
     std::vector<LobeJob> jobs = jobsAt(starts);
-    solveLobes(problem_, lobes_, DiffuseSolve::Solve, 5, jobs);
+    solveLobes(problem_, lobes_, DiffuseSolve::Solve, 4, jobs);
     for (std::size_t v = 0; v < views_; ++v)
       if (jobs[v].cost < costs_[v]) {
         costs_[v] = jobs[v].cost;
+        diffuseSlopes_[v] = jobs[v].diffuseSlope;
         std::copy_n(jobs[v].parameters, stride_, &parameters_[v * stride_]);
       }
   }
@@ -288,7 +291,7 @@ void RfnlFitter::fit(std::span<const float> targets, std::span<const float> weig
                      std::span<float> layers) const {
   TexelFit texel(problem_, neighbors_, lobes_, targets, weights);
   texel.fitViews();
-  if (!ownDiffuseAlbedo_) texel.shareDiffuse();
+  ownDiffuseAlbedo_ ? texel.polish() : texel.shareDiffuse();
   const std::size_t viewCount = targets.size() / problem_.lights.size();
   const std::size_t numbers = layers.size() / viewCount;
   for (std::size_t v = 0; v < viewCount; ++v) {
