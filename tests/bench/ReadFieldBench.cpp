@@ -1,4 +1,4 @@
-// How long a reflectance field file takes to open, to read one view of, and to read whole:
+// How long a reflectance field file takes to open, to read one view of, to read whole, and to write again:
 // read_field_bench FILE.rf.exr [options of Google Benchmark]
 
 #include <OpenEXR/ImfChannelList.h>
@@ -58,6 +58,17 @@ void readWhole(benchmark::State& state, const char* path) {
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(std::filesystem::file_size(path)));
 }
 
+void writeWhole(benchmark::State& state, const char* path) {
+  const auto field = weft::readReflectanceField(path, weft::ModelRegistry::builtin());
+  if (!field) return state.SkipWithError(field.error().message().c_str());
+  const std::filesystem::path copy = std::string(path) + ".copy";
+  for (auto _ : state)
+    if (const auto written = weft::writeReflectanceField(*field, copy); !written)
+      state.SkipWithError(written.error().message().c_str());
+  std::filesystem::remove(copy);
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(std::filesystem::file_size(path)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -66,8 +77,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "read_field_bench FILE.rf.exr [options of Google Benchmark]\n");
     return 1;
   }
-  for (const auto& [name, measure] : {std::pair("open", &open), std::pair("read one view", &readOneView),
-                                      std::pair("read whole", &readWhole)})
+  for (const auto& [name, measure] :
+       {std::pair("open", &open), std::pair("read one view", &readOneView),
+        std::pair("read whole", &readWhole), std::pair("write whole", &writeWhole)})
     benchmark::RegisterBenchmark(name, measure, argv[1])->Unit(benchmark::kMillisecond)->UseRealTime();
   try {
     benchmark::RunSpecifiedBenchmarks();

@@ -1,7 +1,6 @@
 #include "weft/io/ExrFile.h"
 
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
@@ -51,9 +50,8 @@ Result<void> writeExr(const std::filesystem::path& path, const FloatImage& image
     header.setType(Imf::SCANLINEIMAGE);
     for (const auto& [name, text] : image.metadata)
       if (header.find(name.c_str()) == header.end()) header.insert(name, Imf::StringAttribute(text));
-    Imf::MultiPartOutputFile output(file.temporary().c_str(), &header, 1, false, 0);
-    Imf::OutputPart part(output, 0);
-    writeExrPart(part, image, 0);
+    Imf::OutputFile output(file.temporary().c_str(), header, 0);
+    writeExrPart(output, image, 0);
   } catch (const std::exception& error) {
     return fail(std::string("the OpenEXR file cannot be written: ") + error.what(), path.string(),
                 "is the disk full?");

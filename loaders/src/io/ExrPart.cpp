@@ -128,17 +128,17 @@ void readExrPart(Imf::InputPart& part, FloatImage& image, int layer) {
   part.readPixels(window.min.y, window.max.y);
 }
 
-void writeExrPart(Imf::OutputPart& part, const FloatImage& image, int layer) {
+void writeExrPart(Imf::OutputFile& file, const FloatImage& image, int layer) {
   const std::span<const float> values = image.layerValues(layer);
-  const Imath::Box2i window = part.header().dataWindow();
+  const Imath::Box2i window = file.header().dataWindow();
   if (image.precision() == Precision::Float) {
-    part.setFrameBuffer(frameBuffer(image, values.data(), Imf::FLOAT, window));
-    part.writePixels(image.height());
+    file.setFrameBuffer(frameBuffer(image, values.data(), Imf::FLOAT, window));
+    file.writePixels(image.height());
     return;
   }
   const std::vector<half> halfs(values.begin(), values.end());
-  part.setFrameBuffer(frameBuffer(image, halfs.data(), Imf::HALF, window));
-  part.writePixels(image.height());
+  file.setFrameBuffer(frameBuffer(image, halfs.data(), Imf::HALF, window));
+  file.writePixels(image.height());
 }
 
 }  // namespace weft

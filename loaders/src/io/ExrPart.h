@@ -2,7 +2,7 @@
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
-#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfOutputFile.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -38,7 +38,7 @@ Imf::Header exrPartHeader(const FloatImage& image);
 /// Reads every channel of `image` into one of its layers. Throws what OpenEXR throws.
 void readExrPart(Imf::InputPart& part, FloatImage& image, int layer);
 
-/// Writes one layer. Throws what OpenEXR throws.
-void writeExrPart(Imf::OutputPart& part, const FloatImage& image, int layer);
+/// Writes one layer as a file of one part. Throws what OpenEXR throws.
+void writeExrPart(Imf::OutputFile& file, const FloatImage& image, int layer);
 
 }  // namespace weft

@@ -1,11 +1,15 @@
 #include "weft/io/ReflectanceFieldFile.h"
 
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <exception>
@@ -33,18 +37,42 @@ Imf::Header partHeader(const FloatImage& image, const std::string& name) {
   return header;
 }
 
+// A part as a file of its own in memory. OpenEXR would pack a part on one thread, or on a pool of threads
+// that it shares with the rest of the program; so every thread packs other parts, and blocks are copied as
+// they are.
+std::string packedPart(const FloatImage& image, int layer) {
+  Imf::StdOSStream stream;
+  {
+    Imf::OutputFile file(stream, exrPartHeader(image), 0);
+    writeExrPart(file, image, layer);
+  }
+  return stream.str();
+}
+
+void copyPart(const std::string& packed, Imf::MultiPartOutputFile& file, int part) {
+  Imf::StdISStream stream;
+  stream.str(packed);
+  Imf::InputFile from(stream, 0);
+  Imf::OutputPart(file, part).copyPixels(from);
+}
+
 void writeParts(const ReflectanceField& field, const std::string& manifest, const std::string& path) {
   std::vector<Imf::Header> headers{partHeader(field.shared(), kSharedPart)};
   headers[0].insert(kManifestAttribute, Imf::StringAttribute(manifest));
   const FloatImage& layers = field.layers();
   for (int layer = 0; layer < layers.layers(); ++layer)
     headers.push_back(partHeader(layers, layerPart(field.model(), layer)));
-  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()), false, 0);
-  Imf::OutputPart shared(file, 0);
-  writeExrPart(shared, field.shared(), 0);
-  for (int layer = 0; layer < layers.layers(); ++layer) {
-    Imf::OutputPart part(file, layer + 1);
-    writeExrPart(part, layers, layer);
+  const int parts = static_cast<int>(headers.size());
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), parts, false, 0);
+
+  constexpr int kPartsAtOnce = 64;  // to be held in memory
+  for (int first = 0; first < parts; first += kPartsAtOnce) {
+    std::vector<std::string> packed(static_cast<std::size_t>(std::min(kPartsAtOnce, parts - first)));
+    tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t i) {
+      const int part = first + static_cast<int>(i);
+      packed[i] = part == 0 ? packedPart(field.shared(), 0) : packedPart(layers, part - 1);
+    });
+    for (std::size_t i = 0; i < packed.size(); ++i) copyPart(packed[i], file, first + static_cast<int>(i));
   }
 }
 

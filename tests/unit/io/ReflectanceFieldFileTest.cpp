@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gmock/gmock.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,17 @@ TEST(ReflectanceFieldFile, WritesEqualBytesWhateverItsName) {
   requireDone(writeReflectanceField(field, folder / "a.rf.exr"));
   requireDone(writeReflectanceField(field, folder / "another name.rf.exr"));
   EXPECT_EQ(test::bytesOf(folder / "a.rf.exr"), test::bytesOf(folder / "another name.rf.exr"));
+}
+
+TEST(ReflectanceFieldFile, WritesEqualBytesOnAnyNumberOfThreads) {
+  const fs::path folder = test::testFolder();
+  const ReflectanceField field = madeUpField({}, Precision::Half);
+  for (const int threads : {1, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    requireDone(writeReflectanceField(field, folder / (std::to_string(threads) + ".rf.exr")));
+  }
+  EXPECT_EQ(test::bytesOf(folder / "1.rf.exr"), test::bytesOf(folder / "3.rf.exr"));
 }
 
 // docs/file-format.md, read by OpenEXR alone.

@@ -9,7 +9,8 @@
 namespace weft {
 
 /// Writes a `.rf.exr` (docs/file-format.md): part `shared`, then one part a view. Written beside its place
-/// and renamed.
+/// and renamed. All threads pack, and the bytes do not depend on how many; what is packed of 64 parts is held
+/// in memory.
 Result<void> writeReflectanceField(const ReflectanceField& field, const std::filesystem::path& path);
 
 /// Reads it back. Fails, with file and reason, on anything that is not such a file; sizes are checked before
