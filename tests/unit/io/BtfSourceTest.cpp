@@ -220,6 +220,27 @@ TEST(BtfSource, DecodesJpegsWithGamma22) {
   }
 }
 
+// More pixels than are decoded before they are transposed.
+TEST(BtfSource, ReadsLargeImagesInBatches) {
+  constexpr int kSide = 4096;
+  const fs::path folder = test::testFolder();
+  for (int light = 0; light < 3; ++light) {
+    Image image(kSide, kSide, 3);
+    std::ranges::fill(image.bytes, static_cast<std::uint8_t>(60 * (light + 1)));
+    const std::string name = "tl0" + std::to_string(15 * light + 10) + " pl000 tv000 pv000.jpg";
+    test::writeBytes(folder / name, valueOf(encodeJpeg(image, 95)));
+  }
+  SampleRows rows;
+  requireDone(valueOf(openBtf(folder))->readRows(kSide - 1, 1, rows));
+  std::vector<glm::vec3> texel(3);
+  for (const int x : {0, 1, kSide / 2, kSide - 1}) {
+    rows.stored(0, x, texel);
+    for (int light = 0; light < 3; ++light)
+      EXPECT_NEAR(texel[static_cast<std::size_t>(light)].y * 255.0f, 60.0f * static_cast<float>(light + 1),
+                  1.01f);
+  }
+}
+
 TEST(BtfSource, ReadsGreyImagesAsRgb) {
   const fs::path folder = test::testFolder();
   Image grey(3, 1, 1);

@@ -39,8 +39,8 @@ class BtfSource {
   virtual const BtfDescription& description() const = 0;
 
   /// All pairs of some rows, row 0 at the top. Costs a pass over the whole measurement, so ask for as many
-  /// rows as memory allows (rowsWithin()). Rows that are read one after another into the same `out` share
-  /// its memory.
+  /// rows as memory allows (rowsWithin()); decoded images take 128 MiB besides. Rows that are read one after
+  /// another into the same `out` share its memory.
   virtual Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const = 0;
 
   /// How many rows fit into `bytes` when read by readRows(); at least 1.
