@@ -18,6 +18,8 @@ find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Ceres REQUIRED)
 find_package(TBB REQUIRED)
+set(MPI_CXX_SKIP_MPICXX TRUE) # the deprecated C++ interface
+find_package(MPI COMPONENTS CXX) # without it weft-fit runs in one process
 find_package(embree 3 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(benchmark REQUIRED)

@@ -10,6 +10,7 @@ packages=(
   libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
   libtinygltf-dev
   libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
+  libopenmpi-dev openmpi-bin # optional: fits of several processes
   libgtest-dev libgmock-dev libbenchmark-dev
   openexr # exrheader, which must understand our files
   python3 # scripts/measure.sh

@@ -10,6 +10,7 @@
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/tool/ProcessGroup.h"
 #include "weft/tool/Tool.h"
 
 namespace {
@@ -104,7 +105,25 @@ FitOptions fitOptions(const Arguments& a) {
   return options;
 }
 
-Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
+// This process's share of the rows; with several processes the first one then has those of all.
+Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const ProcessGroup& group,
+                     const Progress& progress) {
+  if (!arguments.resume && group.rank() == 0) fieldFit.removeParts();
+  group.allSucceeded(true);  // before others write theirs
+  const auto share = [&](int rank) { return fieldFit.height() * rank / group.size(); };
+  const int first = share(group.rank());
+  const auto resumeAndFit = [&]() -> Result<void> {
+    if (arguments.resume) WEFT_TRY_VOID(fieldFit.resume());
+    return fieldFit.fitRows(first, share(group.rank() + 1) - first,
+                            group.rank() == 0 ? progress : Progress());
+  };
+  Result<void> own = resumeAndFit();
+  if (!group.allSucceeded(own.has_value()) && own) return fail("another process of the fit has failed");
+  if (!own || group.size() == 1 || group.rank() > 0) return own;
+  return fieldFit.resume();
+}
+
+Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const ProcessGroup& group) {
   if (!arguments.output.string().ends_with(".rf.exr"))
     return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
   const std::filesystem::path folder =
@@ -120,12 +139,9 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments) {
                                                 static_cast<std::size_t>(options.crop->height)
                                           : measured.texels();
   WEFT_TRY(FieldFit fieldFit, FieldFit::create(*source, options));
-  if (arguments.resume)
-    WEFT_TRY_VOID(fieldFit.resume());
-  else
-    fieldFit.removeParts();
-  WEFT_TRY_VOID(fieldFit.fitRows(0, fieldFit.height(),
-                                 tool.progress("fitting", static_cast<double>(texels), "texels")));
+  WEFT_TRY_VOID(
+      fitRows(fieldFit, arguments, group, tool.progress("fitting", static_cast<double>(texels), "texels")));
+  if (group.rank() > 0) return ExitCode::Done;
   WEFT_TRY(const FitResult result, fieldFit.finish());
   const auto startOfWriting = std::chrono::steady_clock::now();
   WEFT_TRY_VOID(writeReflectanceField(result.field, arguments.output));
@@ -170,5 +186,6 @@ int main(int argc, char** argv) {
              "weft-fit UBO_WOOL64.zip -o wool.rf.exr --model rfnl --lobes 2", WEFT_VERSION});
   Arguments arguments;
   addOptions(tool.options(), arguments);
-  return tool.run(argc, argv, [&] { return fit(tool, arguments); });
+  const ProcessGroup group;
+  return tool.run(argc, argv, [&] { return fit(tool, arguments, group); });
 }

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,11 @@ void expectRefused(const ProgramRun& run, int exitCode, const std::string& messa
   EXPECT_EQ(run.exitCode, exitCode) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_THAT(run.err, HasSubstr(message));
+}
+
+std::string contentsOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 TEST(FitCommand, FitsAMeasurementThatInfoThenDescribes) {
@@ -63,12 +69,76 @@ TEST(FitCommand, EqualInputGivesEqualBytesOnAnyNumberOfThreads) {
   const auto bytesWith = [&](const std::string& threads) {
     const fs::path field = folder / (threads + ".rf.exr");
     EXPECT_EQ(runProgram("weft-fit", {zip, "-o", field, "--threads", threads, "--quiet"}).exitCode, 0);
-    std::ifstream file(field, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    return contentsOf(field);
   };
   const std::string one = bytesWith("1");
   EXPECT_FALSE(one.empty());
   EXPECT_TRUE(one == bytesWith("2"));
+}
+
+TEST(FitCommand, SeveralProcessesWriteTheSameBytes) {
+#ifdef WEFT_MPIRUN
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  // OpenMPI keeps some of its memory until the process ends.
+  setenv("LSAN_OPTIONS", ("suppressions=" + (test::sourceFolder() / "tests/openmpi.supp").string()).c_str(),
+         1);
+  const fs::path alone = folder / "alone.rf.exr";
+  const fs::path together = folder / "together.rf.exr";
+  ASSERT_EQ(runProgram("weft-fit", {zip, "-o", alone}).exitCode, 0);
+  const std::string program = test::programFolder() / "weft-fit";
+  const ProgramRun run =
+      runProgram(WEFT_MPIRUN, {"--oversubscribe", "-n", "3", program, zip, "-o", together});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("stored luminance"));
+  EXPECT_TRUE(contentsOf(alone) == contentsOf(together));
+  EXPECT_FALSE(fs::exists(together.string() + ".parts"));
+  EXPECT_NE(
+      runProgram(WEFT_MPIRUN, {"--oversubscribe", "-n", "3", program, folder / "absent.zip", "-o", together})
+          .exitCode,
+      0);
+#else
+  GTEST_SKIP() << "built without MPI";
+#endif
+}
+
+// Killed between two rows: what is finished stays, and is gone once the file is there.
+TEST(FitCommand, AFitThatWasKilledGoesOn) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  const fs::path whole = folder / "whole.rf.exr";
+  const fs::path resumed = folder / "resumed.rf.exr";
+  const fs::path parts = resumed.string() + ".parts";
+  ASSERT_EQ(runProgram("weft-fit", {zip, "-o", whole}).exitCode, 0);
+  for (const char* seconds : {"0.02", "0.1", "0.3"})
+    runProgram("/usr/bin/timeout", {"--signal=KILL", seconds, test::programFolder() / "weft-fit", zip, "-o",
+                                    resumed, "--resume", "--quiet"});
+  ASSERT_EQ(runProgram("weft-fit", {zip, "-o", resumed, "--resume"}).exitCode, 0);
+  EXPECT_TRUE(contentsOf(whole) == contentsOf(resumed));
+  EXPECT_FALSE(fs::exists(parts));
+
+  fs::create_directories(parts);
+  std::ofstream(parts / "000000-000000.rows") << "nonsense";
+  expectRefused(runProgram("weft-fit", {zip, "-o", resumed, "--resume"}), 2, "000000-000000.rows");
+  EXPECT_EQ(runProgram("weft-fit", {zip, "-o", resumed}).exitCode, 0) << "starts over";
+  EXPECT_FALSE(fs::exists(parts));
+}
+
+TEST(FitCommand, ReportsHeldOutPairs) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  const fs::path field = folder / "cloth.rf.exr";
+  const ProgramRun run = runProgram("weft-fit", {zip, "-o", field, "--model", "rfp", "--hold-out", "8",
+                                                 "--hold-out-views", "10", "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json fit = json::parse(run.out);
+  const json& heldOut = fit.at("held_out");
+  EXPECT_GT(heldOut.at("epsilon").at("stored").at("luminance").at("avg"), 0.0);
+  EXPECT_TRUE(heldOut.at("psnr").at("linear").at("rgb").is_number());
+  EXPECT_EQ(json::parse(runProgram("weft-info", {field, "--json", "-"}).out).at("fit").at("held_out"),
+            heldOut);
 }
 
 TEST(FitCommand, AnErrorAboveTheBoundEndsWithThree) {
@@ -89,6 +159,9 @@ TEST(FitCommand, BadUsageEndsWithOne) {
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "magic"}), 1, "magic");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--lobes", "0"}), 1, "lobes");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--crop", "1", "2"}), 1, "crop");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--hold-out", "1"}), 1, "hold-out");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--space", "stored", "--cosine", "out"}), 1,
+                "stored");
   EXPECT_FALSE(fs::exists(field));
 }
 

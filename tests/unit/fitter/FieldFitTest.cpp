@@ -72,6 +72,80 @@ TEST(FieldFit, RfnlRecoversTwoLobesAndTheSharedAlbedo) {
   EXPECT_LT(epsilon(valueOf(fitReflectanceField(source, own))), 2e-3);
 }
 
+TEST(FieldFit, LightFieldsRecoverFunctionsOfTheView) {
+  const MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) {
+    return glm::vec3(l.z * (0.6f + 0.2f * v.x * v.y - 0.1f * v.x + 0.2f * l.x * v.y * v.y));
+  });
+  const FitResult fit = valueOf(fitReflectanceField(source, optionsFor("lfp")));
+  EXPECT_LT(epsilon(fit), 1e-5);
+  const glm::vec3 light = source.description().lights[30];
+  const glm::vec3 view = directionFromDegrees(33, 44);
+  EXPECT_NEAR(fit.field.evaluate(0, 0, light, view).y,
+              light.z * (0.6f + 0.2f * view.x * view.y - 0.1f * view.x + 0.2f * light.x * view.y * view.y),
+              1e-4);
+
+  const MemoryBtf glossy(1, 1,
+                         [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(l, v)); });
+  EXPECT_LT(epsilon(valueOf(fitReflectanceField(glossy, optionsFor("lfnl")))), 2e-3);
+}
+
+TEST(FieldFit, ColorsThatTurnWithTheLightNeedRgb) {
+  const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) {
+    return l.z * glm::vec3(0.5f + 0.4f * l.x, 0.4f, 0.3f - 0.2f * l.x);
+  });
+  FitOptions rgb = optionsFor("rfp");
+  rgb.model.color = FitColor::Rgb;
+  const auto rgbError = [&](const FitOptions& options) {
+    return valueOf(fitReflectanceField(source, options))
+        .errors.of(ErrorSpace::Linear, ErrorMeasure::Rgb)
+        .average;
+  };
+  EXPECT_LT(rgbError(rgb), 1e-5);
+  EXPECT_GT(rgbError(optionsFor("rfp")), 0.02);
+  rgb.model.name = "rfnl";
+  EXPECT_LT(rgbError(rgb), 0.01);
+}
+
+// Black in one channel: no multiple of a base colour of 0.
+TEST(FieldFit, AChannelMayBeBlack) {
+  const MemoryBtf source(1, 1,
+                         [](int, int, glm::vec3, glm::vec3 l) { return l.z * glm::vec3(0.5f, 0.5f, 0.0f); });
+  for (const char* model : {"rfp", "rfnl"}) {
+    FitOptions rgb = optionsFor(model);
+    rgb.model.color = FitColor::Rgb;
+    EXPECT_LT(epsilon(valueOf(fitReflectanceField(source, rgb))), 2e-3) << model;
+  }
+}
+
+// The papers' way: the stored values are a polynomial, so that a literal fit is exact and one of linear
+// values is not.
+TEST(FieldFit, StoredValuesCanBeFittedLiterally) {
+  const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) {
+    return decode(Encoding::Gamma22, glm::vec3(0.5f + 0.3f * l.x - 0.2f * l.y * l.y));
+  });
+  FitOptions literal = optionsFor("rfp");
+  literal.space = FitSpace::Stored;
+  const FitResult fit = valueOf(fitReflectanceField(source, literal));
+  EXPECT_EQ(fit.field.description().encoding, Encoding::Gamma22);
+  EXPECT_TRUE(fit.field.description().hasCosine);
+  EXPECT_LT(epsilon(fit, ErrorSpace::Stored), 1e-5);
+  EXPECT_LT(epsilon(fit, ErrorSpace::Linear), 1e-5);
+  EXPECT_GT(epsilon(valueOf(fitReflectanceField(source, optionsFor("rfp"))), ErrorSpace::Stored), 1e-3);
+}
+
+TEST(FieldFit, APolynomialTextureMapIsOfOneView) {
+  MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(0.3f + 0.2f * l.x); });
+  EXPECT_FALSE(fitReflectanceField(source, optionsFor("ptm")));
+  source.description().views = {{0, 0, 1}};
+  FitOptions options = optionsFor("ptm");
+  options.space = FitSpace::Stored;
+  source.description().encoding = Encoding::Linear;
+  const FitResult fit = valueOf(fitReflectanceField(source, options));
+  EXPECT_EQ(fit.field.layers().layers(), 1);
+  EXPECT_NEAR(fit.field.layers().at(0, 0, 3), 0.2f, 1e-5f);
+  EXPECT_NEAR(fit.field.layers().at(0, 0, 5), 0.3f, 1e-5f);
+}
+
 TEST(FieldFit, MoreLobesFitBetter) {
   const MemoryBtf source(1, 1,
                          [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });

@@ -1,0 +1,148 @@
+// Fits that are stopped, shared, or tested on what they have not seen.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "MemoryBtf.h"
+#include "TestSupport.h"
+#include "weft/fitter/FieldFit.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using test::MemoryBtf;
+using test::valueOf;
+using testing::HasSubstr;
+
+constexpr int kHeight = 40;  // two rows a part
+
+MemoryBtf unevenBtf() {
+  return MemoryBtf(3, kHeight, [](int x, int y, glm::vec3 v, glm::vec3 l) {
+    return glm::vec3(0.9f, 0.6f, 0.3f) * l.z *
+           (0.5f + 0.3f * std::sin(static_cast<float>(x + 3 * y)) * l.x * v.y);
+  });
+}
+
+FitOptions optionsWith(const fs::path& parts) {
+  FitOptions options;
+  options.model.name = "rfp";
+  options.partsFolder = parts;
+  return options;
+}
+
+void expectSameFields(const FitResult& a, const FitResult& b) {
+  EXPECT_TRUE(std::ranges::equal(a.field.shared().values(), b.field.shared().values()));
+  EXPECT_TRUE(std::ranges::equal(a.field.layers().values(), b.field.layers().values()));
+  EXPECT_EQ(a.field.description().fitReport, b.field.description().fitReport);
+}
+
+std::string failureText(const Result<void>& result) {
+  return result ? std::string() : result.error().message();
+}
+
+TEST(FieldFitSteps, AStoppedFitGoesOnToTheSameResult) {
+  const MemoryBtf source = unevenBtf();
+  const fs::path parts = test::testFolder() / "parts";
+  const FitResult uninterrupted = valueOf(fitReflectanceField(source, optionsWith({})));
+  {
+    FieldFit stopped = valueOf(FieldFit::create(source, optionsWith(parts)));
+    EXPECT_TRUE(stopped.fitRows(5, 13, {}));
+    EXPECT_FALSE(stopped.finish()) << "rows are missing";
+  }
+  FieldFit resumed = valueOf(FieldFit::create(source, optionsWith(parts)));
+  ASSERT_TRUE(resumed.resume());
+  double progress = 0.0;
+  ASSERT_TRUE(resumed.fitRows(0, kHeight, [&](double fraction) { progress = fraction; }));
+  EXPECT_DOUBLE_EQ(progress, 1.0);
+  expectSameFields(valueOf(resumed.finish()), uninterrupted);
+  resumed.removeParts();
+  EXPECT_FALSE(fs::exists(parts));
+}
+
+TEST(FieldFitSteps, ProcessesShareAFitByItsFolder) {
+  const MemoryBtf source = unevenBtf();
+  const fs::path parts = test::testFolder() / "parts";
+  std::vector<FieldFit> processes;
+  for (int rank = 0; rank < 3; ++rank) {
+    processes.push_back(valueOf(FieldFit::create(source, optionsWith(parts))));
+    const int first = kHeight * rank / 3;
+    EXPECT_TRUE(processes.back().fitRows(first, kHeight * (rank + 1) / 3 - first, {}));
+  }
+  ASSERT_TRUE(processes[0].resume());
+  expectSameFields(valueOf(processes[0].finish()), valueOf(fitReflectanceField(source, optionsWith({}))));
+}
+
+TEST(FieldFitSteps, RowsOfAnotherFitAreRefused) {
+  const MemoryBtf source = unevenBtf();
+  FitOptions options = optionsWith(test::testFolder() / "parts");
+  FieldFit fit = valueOf(FieldFit::create(source, options));
+  ASSERT_TRUE(fit.fitRows(0, 2, {}));
+  options.model.color = FitColor::Rgb;
+  EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
+  options = optionsWith(options.partsFolder);
+  options.crop = Crop{0, 0, 3, 8};
+  EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
+}
+
+TEST(FieldFitSteps, DamagedRowsAreRefused) {
+  const MemoryBtf source = unevenBtf();
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  {
+    FieldFit fit = valueOf(FieldFit::create(source, options));
+    ASSERT_TRUE(fit.fitRows(0, 2, {}));
+  }
+  const fs::path file = fs::directory_iterator(options.partsFolder)->path();
+  std::ifstream stream(file, std::ios::binary);
+  const std::string good(std::istreambuf_iterator<char>(stream), {});
+  const auto resumeWith = [&](const std::string& contents) {
+    std::ofstream(file, std::ios::binary) << contents;
+    return failureText(valueOf(FieldFit::create(source, options)).resume());
+  };
+  EXPECT_EQ(resumeWith(good), "");
+  for (std::size_t size = 0; size < good.size(); size += size < 300 ? 1 : 997)
+    EXPECT_THAT(resumeWith(good.substr(0, size)), HasSubstr(file.filename())) << size;
+  EXPECT_THAT(resumeWith(good + "x"), HasSubstr("size"));
+  // The header first, byte by byte; then the rows, which the checksum guards.
+  for (std::size_t at = 0; at < good.size(); at += at < 300 ? 1 : 997) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 0x55);
+    EXPECT_NE(resumeWith(bad), "") << at;
+  }
+}
+
+TEST(FieldFitSteps, HeldOutPairsAreNotFittedButReported) {
+  // The lights that are held out show a value of their own, which the fit cannot know.
+  const std::vector<glm::vec3> lights = test::ubo2003Sampling();
+  MemoryBtf plain(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(0.5f * l.z); });
+  FitOptions options = optionsWith({});
+  options.holdOutLights = 8;
+  options.holdOutViews = 10;
+  const FitResult clean = valueOf(fitReflectanceField(plain, options));
+  const ReflectanceFieldDescription& fitted = clean.field.description();
+  EXPECT_EQ(fitted.lights.size(), 71u);
+  EXPECT_EQ(fitted.views.size(), 73u);
+  EXPECT_EQ(clean.field.layers().layers(), 73);
+  const auto isFitted = [&](glm::vec3 light) {
+    return std::ranges::find(fitted.lights, light) != fitted.lights.end();
+  };
+
+  const MemoryBtf odd(
+      1, 1, [&](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(isFitted(l) ? 0.5f * l.z : 0.9f); });
+  const FitResult fit = valueOf(fitReflectanceField(odd, options));
+  EXPECT_LT(fit.errors.of(ErrorSpace::Linear, ErrorMeasure::Luminance).average, 1e-3);
+  ASSERT_TRUE(fit.heldOut);
+  EXPECT_GT(fit.heldOut->of(ErrorSpace::Linear, ErrorMeasure::Luminance).average, 0.1);
+  EXPECT_TRUE(std::ranges::equal(fit.field.layers().values(), clean.field.layers().values()));
+  EXPECT_EQ(clean.texels[0].fitted.pairs, 71u * 73u);
+  EXPECT_EQ(clean.texels[0].heldOut.pairs, 81u * 81u - 71u * 73u);
+  // Held-out views lie between fitted ones, where a constant is interpolated exactly.
+  EXPECT_LT(clean.heldOut->of(ErrorSpace::Linear, ErrorMeasure::Luminance).average, 1e-3);
+  options.holdOutLights = 1;
+  EXPECT_FALSE(fitReflectanceField(plain, options));
+}
+
+}  // namespace
+}  // namespace weft
