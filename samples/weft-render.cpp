@@ -26,7 +26,7 @@
 #include "weft/scenegraph/HeadlessWindow.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/MaterialGroup.h"
-#include "weft/scenegraph/Renderer.h"
+#include "weft/scenegraph/RenderAction.h"
 #include "weft/scenegraph/Shapes.h"
 #include "weft/scenegraph/Transform.h"
 #include "weft/tool/Tool.h"
@@ -280,7 +280,7 @@ void addLamps(std::vector<Settings::Lamp> lamps, const Camera& camera, GltfScene
 }
 
 /// Milliseconds of whole frames, in their order; each ends when GL has finished it.
-Result<std::vector<double>> timeFrames(int count, Renderer& renderer, GLContext& context, const Node& root,
+Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLContext& context, const Node& root,
                                        const Camera& camera, const RenderTarget& target) {
   std::vector<double> times;
   for (int frame = 0; frame < count; ++frame) {
@@ -319,7 +319,7 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
 
   WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
   GLContext& context = window->context();
-  Renderer renderer;
+  RenderAction renderer;
   const bool png = arguments.output.ends_with(".png");
   const RenderTarget target(kSupersampling * settings->width, kSupersampling * settings->height,
                             png ? Precision::Half : Precision::Float);

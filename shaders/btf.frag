@@ -67,7 +67,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
   Texel texel = fetchTexel(place);
   vec3 radiance = vec3(0.0);
 #ifdef LAYERS_ARE_LIGHTS
-  for (int i = 0; i < lightCount.x; ++i) {
+  for (int i = 0; i < lightCount; ++i) {
     vec3 toLight;
     vec3 irradiance = lightAt(i, position, toLight);
     vec3 l = toFrame(frame, toLight);
@@ -82,7 +82,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
   for (int k = 0; k < 3; ++k) {
     if (layers.weight[k] == 0.0) continue;
     Layer layer = fetchLayer(place, layers.index[k]);
-    for (int i = 0; i < lightCount.x; ++i) {
+    for (int i = 0; i < lightCount; ++i) {
       vec3 toLight;
       vec3 irradiance = lightAt(i, position, toLight);
       vec3 l = toFrame(frame, toLight);

@@ -1,7 +1,6 @@
 // A matt surface: radiance = baseColor / pi x irradiance x n.l, seen alike from all sides.
 #version 450 core
 #include "lights.glsl"
-#include "tangent_frame.glsl"
 
 layout(std140, binding = 2) uniform Lambert {
   vec4 baseColor;  // linear
@@ -12,9 +11,7 @@ layout(binding = 0) uniform sampler2D baseColorTexture;
 
 in vec3 position;
 in vec3 normal;
-in vec3 tangent;
 in vec2 texcoord;
-flat in float handedness;
 
 layout(location = 0) out vec4 color;
 
@@ -23,9 +20,10 @@ void main() {
 #ifdef BASE_COLOR_TEXTURE
   albedo *= texture(baseColorTexture, texcoord);
 #endif
-  vec3 n = tangentFrame(normal, tangent, handedness, !gl_FrontFacing).n;
+  vec3 n = normal * inversesqrt(max(dot(normal, normal), 1e-30));
+  if (!gl_FrontFacing) n = -n;
   vec3 irradiance = vec3(0.0);
-  for (int i = 0; i < lightCount.x; ++i) {
+  for (int i = 0; i < lightCount; ++i) {
     vec3 toLight;
     vec3 facing = lightAt(i, position, toLight);
     irradiance += facing * max(dot(n, toLight), 0.0);

@@ -1,24 +1,38 @@
 // The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout).
 
+// How many lights there are of both kinds is known when a program is compiled, which makes short loops over them fast.
+#ifndef DIRECTIONAL_LIGHTS
+#define DIRECTIONAL_LIGHTS 0
+#define PLACED_LIGHTS 0
+#endif
+
 const int maximumLights = 16;
+const int lightCount = DIRECTIONAL_LIGHTS + PLACED_LIGHTS;
 
 struct Light {
-  vec4 place;      // xyz: position (w = 1), or direction towards the light, unit (w = 0); world space
-  vec4 intensity;  // rgb: candela for a position, lux for a direction
+  vec4 place;      // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit; world space
+  vec4 intensity;  // rgb: candela for a position, lux for a direction; w: 1 / range^2
+  vec4 cone;       // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot light gives
 };
 
 layout(std140, binding = 0) uniform Frame {
   mat4 viewProjection;
   vec4 eye;  // xyz: world space
-  ivec4 lightCount;  // x
   Light lights[maximumLights];
 };
 
 // Irradiance, on a surface that faces the light, at a world-space point; `toLight` becomes the unit direction towards it.
 vec3 lightAt(int index, vec3 point, out vec3 toLight) {
+  if (index < DIRECTIONAL_LIGHTS) {
+    toLight = lights[index].place.xyz;
+    return lights[index].intensity.rgb;
+  }
   Light light = lights[index];
-  vec3 offset = light.place.xyz - light.place.w * point;
+  vec3 offset = light.place.xyz - point;
   float squared = max(dot(offset, offset), 1e-12);
   toLight = offset * inversesqrt(squared);
-  return light.place.w == 0.0 ? light.intensity.rgb : light.intensity.rgb / squared;
+  float beyond = squared * light.intensity.w;
+  float fade = clamp(1.0 - beyond * beyond, 0.0, 1.0);  // KHR_lights_punctual's
+  float inCone = clamp(light.cone.w - dot(light.cone.xyz, toLight), 0.0, 1.0);
+  return light.intensity.rgb * (fade * inCone * inCone / squared);
 }

@@ -120,7 +120,7 @@ vec3 lit(vec3 base) {
   Surface surface = surfaceOf(base);
   vec3 n = surfaceNormal(), v = normalize(eye.xyz - position);
   vec3 radiance = vec3(0.0);
-  for (int i = 0; i < lightCount.x; ++i) {
+  for (int i = 0; i < lightCount; ++i) {
     vec3 l;
     vec3 irradiance = lightAt(i, position, l);
     float nl = dot(n, l);

@@ -65,4 +65,8 @@ void BlockChunk::deactivate(GLContext&, unsigned slot) const {
   bind(kind_, slot, 0);
 }
 
+bool BlockChunk::isEqual(const Chunk& other) const {
+  return bytes_ == static_cast<const BlockChunk&>(other).bytes_;
+}
+
 }  // namespace weft

@@ -26,4 +26,9 @@ void DepthChunk::deactivate(GLContext&, unsigned) const {
   set(false, true);
 }
 
+bool DepthChunk::isEqual(const Chunk& other) const {
+  const auto& depth = static_cast<const DepthChunk&>(other);
+  return test_ == depth.test_ && write_ == depth.write_;
+}
+
 }  // namespace weft

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <utility>
+
 namespace weft {
 
 namespace {
@@ -35,13 +37,18 @@ GLContext::GLContext() {
   limits_.rectangleSize = integer(GL_MAX_RECTANGLE_TEXTURE_SIZE);
   limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
   limits_.storageBlockBytes = integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
-  limits_.uniformOffsetAlignment = integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
 }
 
 GLContext::~GLContext() = default;
 
+void GLContext::setProgramDefines(ShaderDefines defines) {
+  if (defines == programDefines_) return;
+  programDefines_ = std::move(defines);
+  ++programDefinesRevision_;
+}
+
 void GLContext::deleteOrphans() {
-  std::erase_if(objects_, [](const auto& entry) { return entry.first.expired(); });
+  std::erase_if(objects_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
 void GLContext::report(Error error) {

@@ -1,6 +1,9 @@
 #include "weft/chunks/ProgramChunk.h"
 
-#include <optional>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "weft/chunks/GLName.h"
 
@@ -8,8 +11,30 @@ namespace weft {
 
 namespace {
 
+/// The texts of the stages, includes put in.
+struct ProgramText {
+  ShaderText vertex, fragment;
+
+  bool operator==(const ProgramText& other) const {
+    return vertex.text == other.vertex.text && fragment.text == other.fragment.text;
+  }
+};
+
+/// What all chunks of equal source use under the same defines of the context.
+struct LinkedProgram {
+  ProgramText text;
+  Result<GLProgram> program;  ///< an error, too, so that it is not tried each frame
+};
+
+/// The programs of a context that some chunk has.
+struct ProgramCache {
+  std::map<ShaderSource, std::weak_ptr<LinkedProgram>> programs;
+};
+
 struct ProgramObjects {
-  std::optional<Result<GLProgram>> program;  ///< kept when it failed, too, so that it is not tried each frame
+  std::map<ShaderDefines, std::shared_ptr<LinkedProgram>> variants;
+  const LinkedProgram* active = nullptr;
+  std::uint64_t activeRevision = 0;  ///< of the context's defines
 };
 
 std::string shaderLog(GLuint shader) {
@@ -30,8 +55,7 @@ std::string programLog(GLuint program) {
   return log;
 }
 
-Result<GLShader> compile(const ShaderSource& source, GLenum stage, const std::string& file) {
-  WEFT_TRY(const ShaderText text, assembleShader(source, file));
+Result<GLShader> compile(GLenum stage, const ShaderText& text, const std::string& file) {
   GLShader shader(glCreateShader(stage));
   const GLchar* code = text.text.c_str();
   glShaderSource(shader, 1, &code, nullptr);
@@ -44,9 +68,15 @@ Result<GLShader> compile(const ShaderSource& source, GLenum stage, const std::st
   return fail("the shader does not compile: " + log, place.empty() ? file : place);
 }
 
-Result<GLProgram> link(const ShaderSource& source) {
-  WEFT_TRY(const GLShader vertex, compile(source, GL_VERTEX_SHADER, source.vertex));
-  WEFT_TRY(const GLShader fragment, compile(source, GL_FRAGMENT_SHADER, source.fragment));
+Result<ProgramText> assemble(const ShaderSource& source) {
+  WEFT_TRY(ShaderText vertex, assembleShader(source, source.vertex));
+  WEFT_TRY(ShaderText fragment, assembleShader(source, source.fragment));
+  return ProgramText{std::move(vertex), std::move(fragment)};
+}
+
+Result<GLProgram> link(const ShaderSource& source, const ProgramText& text) {
+  WEFT_TRY(const GLShader vertex, compile(GL_VERTEX_SHADER, text.vertex, source.vertex));
+  WEFT_TRY(const GLShader fragment, compile(GL_FRAGMENT_SHADER, text.fragment, source.fragment));
   GLProgram program(glCreateProgram());
   glAttachShader(program, vertex);
   glAttachShader(program, fragment);
@@ -59,13 +89,40 @@ Result<GLProgram> link(const ShaderSource& source) {
   return fail("the program does not link: " + programLog(program), source.vertex + " and " + source.fragment);
 }
 
+LinkedProgram make(const ShaderSource& source) {
+  Result<ProgramText> text = assemble(source);
+  if (!text) return {{}, tl::unexpected(text.error())};
+  Result<GLProgram> program = link(source, *text);
+  return {std::move(*text), std::move(program)};
+}
+
+ShaderSource withDefines(ShaderSource source, const ShaderDefines& defines) {
+  source.defines.insert(source.defines.end(), defines.begin(), defines.end());
+  return source;
+}
+
+std::shared_ptr<LinkedProgram> findOrMake(GLContext& context, const ShaderSource& source) {
+  auto& programs = context.shared<ProgramCache>().programs;
+  std::erase_if(programs, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<LinkedProgram>& known = programs[source];
+  std::shared_ptr<LinkedProgram> program = known.lock();
+  if (!program) known = program = std::make_shared<LinkedProgram>(make(source));
+  return program;
+}
+
 }  // namespace
 
 void ProgramChunk::activate(GLContext& context, unsigned) const {
-  auto& program = context.objectsOf<ProgramObjects>(owner_).program;
-  if (!program) program = link(source_);
-  if (!*program) context.report(program->error());
-  glUseProgram(*program ? GLuint(**program) : 0);
+  auto& objects = context.objectsOf<ProgramObjects>(owner_);
+  if (!objects.active || objects.activeRevision != context.programDefinesRevision()) {
+    auto& variant = objects.variants[context.programDefines()];
+    if (!variant) variant = findOrMake(context, withDefines(source_, context.programDefines()));
+    objects.active = variant.get();
+    objects.activeRevision = context.programDefinesRevision();
+  }
+  const Result<GLProgram>& program = objects.active->program;
+  if (!program) context.report(program.error());
+  glUseProgram(program ? GLuint(*program) : 0);
 }
 
 void ProgramChunk::changeFrom(GLContext& context, const Chunk&, unsigned slot) const {
@@ -74,6 +131,24 @@ void ProgramChunk::changeFrom(GLContext& context, const Chunk&, unsigned slot) c
 
 void ProgramChunk::deactivate(GLContext&, unsigned) const {
   glUseProgram(0);
+}
+
+Result<bool> ProgramChunk::reload(GLContext& context) const {
+  const auto& variants = context.objectsOf<ProgramObjects>(owner_).variants;
+  std::vector<std::pair<LinkedProgram*, LinkedProgram>> changes;
+  for (const auto& [defines, variant] : variants) {
+    const ShaderSource source = withDefines(source_, defines);
+    WEFT_TRY(ProgramText text, assemble(source));
+    if (text == variant->text) continue;
+    WEFT_TRY(GLProgram program, link(source, text));
+    changes.emplace_back(variant.get(), LinkedProgram{std::move(text), std::move(program)});
+  }
+  for (auto& [variant, change] : changes) *variant = std::move(change);
+  return !changes.empty();
+}
+
+bool ProgramChunk::isEqual(const Chunk& other) const {
+  return source_ == static_cast<const ProgramChunk&>(other).source_;
 }
 
 }  // namespace weft

@@ -18,4 +18,8 @@ void RasterChunk::deactivate(GLContext&, unsigned) const {
   glCullFace(GL_BACK);
 }
 
+bool RasterChunk::isEqual(const Chunk& other) const {
+  return culling_ == static_cast<const RasterChunk&>(other).culling_;
+}
+
 }  // namespace weft

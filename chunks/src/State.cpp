@@ -1,5 +1,6 @@
 #include "weft/chunks/State.h"
 
+#include <atomic>
 #include <bit>
 
 namespace weft {
@@ -10,6 +11,8 @@ void State::set(unsigned slot, std::shared_ptr<const Chunk> chunk) {
   const std::uint64_t bit = std::uint64_t{1} << slot;
   occupied_ = chunk ? occupied_ | bit : occupied_ & ~bit;
   chunks_[slot] = std::move(chunk);
+  static std::atomic<std::uint64_t> latestRevision{0};
+  revision_ = ++latestRevision;
 }
 
 void State::changeFrom(GLContext& context, const State& previous) const {
@@ -17,7 +20,7 @@ void State::changeFrom(GLContext& context, const State& previous) const {
     const auto slot = static_cast<unsigned>(std::countr_zero(slots));
     const Chunk* next = at(slot);
     const Chunk* old = previous.at(slot);
-    if (next == old) continue;
+    if (next == old || (next && old && *next == *old)) continue;
     if (!old)
       next->activate(context, slot);
     else if (!next)

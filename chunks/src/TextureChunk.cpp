@@ -244,4 +244,9 @@ void TextureChunk::deactivate(GLContext&, unsigned slot) const {
   glBindTextureUnit(slot - TextureSlot, 0);
 }
 
+bool TextureChunk::isEqual(const Chunk& other) const {
+  const auto& texture = static_cast<const TextureChunk&>(other);
+  return image_ == texture.image_ && options_ == texture.options_;
+}
+
 }  // namespace weft

@@ -22,7 +22,7 @@ void forEachVertex(const Node& root, Visit visit) {
   while (!nodes.empty()) {
     auto [node, toWorld] = nodes.back();
     nodes.pop_back();
-    if (const auto* transform = dynamic_cast<const Transform*>(&node->core())) toWorld *= transform->matrix;
+    if (const auto* transform = dynamic_cast<const Transform*>(&node->core())) toWorld *= transform->matrix();
     if (const auto* geometry = dynamic_cast<const Geometry*>(&node->core()))
       for (const glm::vec3 position : geometry->mesh()->positions)
         visit(glm::vec3(toWorld * glm::vec4(position, 1.0f)));

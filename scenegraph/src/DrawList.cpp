@@ -1,37 +1,52 @@
 #include "DrawList.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 namespace weft {
 
 namespace {
 
-/// Distances of 0 and more, in their order.
-std::uint64_t depthBits(float depth) {
-  return std::bit_cast<std::uint32_t>(std::max(depth, 0.0f));
+/// Appends the lowest bits of a number to a key.
+constexpr void append(std::uint64_t& key, std::uint64_t number, unsigned bits) {
+  key = key << bits | (number & ((std::uint64_t{1} << bits) - 1));
 }
 
 }  // namespace
 
-void DrawList::add(const Geometry& geometry, const State& state, const glm::mat4& model, float depth) {
-  // Numbers of this frame, so that the order does not depend on addresses. What does not fit its bits only
-  // costs state changes.
-  const auto number = [this](const void* object) {
-    return numbers_.try_emplace(object, numbers_.size()).first->second;
-  };
-  const std::uint64_t program = number(state.at(ProgramSlot)) & 0x7ff;
-  const std::uint64_t material = number(&state) & 0xfffff;
-  const std::uint64_t order = program << 20 | material;
-  const std::uint64_t key = state.at(BlendSlot)
-                                ? std::uint64_t{1} << 63 | (~depthBits(depth) & 0xffffffff) << 31 | order
-                                : order << 32 | depthBits(depth);
-  items_.push_back({key, &geometry, &state, model});
+std::uint64_t DrawOrder::key() const {
+  // Distances of 0 and more, in their order.
+  const std::uint32_t distance = std::bit_cast<std::uint32_t>(depth > 0.0f ? depth : 0.0f);
+  std::uint64_t key = blended;
+  if (blended) append(key, ~distance, 32);
+  append(key, program, blended ? 5 : 8);
+  append(key, material, 14);
+  append(key, kind, 3);
+  if (blended) append(key, page, 9);
+  if (!blended) {
+    append(key, page, 5);
+    append(key, mesh, 14);
+    append(key, distance >> 12, 19);
+  }
+  return key;
 }
 
 void DrawList::sort() {
-  std::stable_sort(items_.begin(), items_.end(),
-                   [](const DrawItem& a, const DrawItem& b) { return a.key < b.key; });
+  // By digits of 8 bits, the lowest first, each pass keeping the order of the one before; digits in which no
+  // two keys differ are left out.
+  std::uint64_t differing = 0;
+  for (const DrawItem& item : items_) differing |= item.key ^ items_.front().key;
+  spare_.resize(items_.size());
+  for (unsigned shift = 0; shift < 64; shift += 8) {
+    if ((differing >> shift & 0xff) == 0) continue;
+    std::array<std::uint32_t, 256> next{};
+    for (const DrawItem& item : items_) ++next[item.key >> shift & 0xff];
+    for (std::uint32_t sum = 0; std::uint32_t & count : next) sum += std::exchange(count, sum);
+    for (const DrawItem& item : items_) spare_[next[item.key >> shift & 0xff]++] = item;
+    std::swap(items_, spare_);
+  }
 }
 
 }  // namespace weft

@@ -1,36 +1,44 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/mat4x4.hpp>
-#include <map>
+#include <span>
 #include <vector>
-
-#include "weft/chunks/State.h"
-#include "weft/scenegraph/Geometry.h"
 
 namespace weft {
 
-/// One geometry to draw.
+/// One object to draw.
 struct DrawItem {
   std::uint64_t key = 0;
-  const Geometry* geometry = nullptr;
-  const State* state = nullptr;
-  glm::mat4 model{1.0f};
+  std::uint32_t object = 0;  ///< number in FlatScene::objects()
 };
 
-/// What a frame draws, in the order that changes the least state: opaque things by program, then state, then
-/// from front to back; then the blended ones from back to front.
+/// What decides when an object is drawn. Numbers larger than their bits only cost changes of state.
+struct DrawOrder {
+  bool blended = false;
+  std::uint32_t program = 0;   ///< 8 bits
+  std::uint32_t material = 0;  ///< 14 bits
+  std::uint32_t kind = 0;      ///< 3 bits: what else cannot be in one draw call
+  std::uint32_t page = 0;      ///< 5 bits: of the mesh pool
+  std::uint32_t mesh = 0;      ///< 14 bits: the same for objects to be drawn as instances
+  float depth = 0.0f;          ///< in front of the camera; behind it counts as 0
+
+  std::uint64_t key() const;
+};
+
+/// What a frame draws, in the order that changes the least state: opaque things by program, material, mesh,
+/// then from front to back; then the blended ones from back to front.
 class DrawList {
  public:
-  /// `depth`: the distance in front of the camera; behind it counts as 0.
-  void add(const Geometry& geometry, const State& state, const glm::mat4& model, float depth);
+  void clear() { items_.clear(); }
+  void add(const DrawOrder& order, std::uint32_t object) { items_.push_back({order.key(), object}); }
+  /// Items with equal keys keep the order in which they were added.
   void sort();
 
-  const std::vector<DrawItem>& items() const { return items_; }
+  std::span<const DrawItem> items() const { return items_; }
 
  private:
   std::vector<DrawItem> items_;
-  std::map<const void*, std::uint64_t> numbers_;  ///< of programs and states, in the order of their coming
+  std::vector<DrawItem> spare_;
 };
 
 }  // namespace weft

@@ -8,28 +8,22 @@ namespace weft {
 
 constexpr int kMaximumLights = 16;
 
-// The std140 blocks of shaders/lights.glsl (Frame) and shaders/mesh.vert (Object).
+// The std140 block `Frame` of shaders/lights.glsl.
 
 struct LightBlock {
-  glm::vec4 place{0.0f};      ///< position, w = 1; or unit direction towards the light, w = 0
-  glm::vec4 intensity{0.0f};  ///< rgb
+  glm::vec4 place{0.0f};      ///< position; or unit direction towards the light
+  glm::vec4 intensity{0.0f};  ///< rgb; w: 1 / range^2
+  glm::vec4 cone{0.0f, 0, 0,
+                 1.0f};  ///< the light grows with the square of dot(cone, (from the light, 1)), 0..1
 };
 
 struct FrameBlock {
   glm::mat4 viewProjection{1.0f};
   glm::vec4 eye{0.0f};
-  glm::ivec4 lightCount{0};  ///< x
-  std::array<LightBlock, kMaximumLights> lights{};
+  std::array<LightBlock, kMaximumLights> lights{};  ///< the directional ones first
 };
-static_assert(sizeof(FrameBlock) == 64 + 16 + 16 + kMaximumLights * 32);
-
-struct ObjectBlock {
-  glm::mat4 model{1.0f};
-  glm::mat4 normalMatrix{1.0f};
-};
-static_assert(sizeof(ObjectBlock) == 128);
+static_assert(sizeof(FrameBlock) == 64 + 16 + kMaximumLights * 48);
 
 constexpr unsigned kFrameBinding = 0;
-constexpr unsigned kObjectBinding = 1;
 
 }  // namespace weft

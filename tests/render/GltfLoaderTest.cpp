@@ -59,7 +59,7 @@ struct Placed {
 };
 
 void collect(const Node& node, glm::mat4 toWorld, std::vector<Placed>& placed) {
-  if (const auto* transform = dynamic_cast<const Transform*>(&node.core())) toWorld *= transform->matrix;
+  if (const auto* transform = dynamic_cast<const Transform*>(&node.core())) toWorld *= transform->matrix();
   if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
     placed.push_back({toWorld, geometry->mesh()});
   for (const auto& child : node.children()) collect(*child, toWorld, placed);
@@ -261,10 +261,10 @@ TEST(GltfLoader, MakesTheMaterialsThatTheFileNames) {
       R"({"name":"cloth","extensions":{"WEFT_materials_btf":{"uri":"wo%6fl.rf.exr","scale":[4,2]}}})"));
   test::requireDone(writeReflectanceField(test::testField(), path.parent_path() / "wool.rf.exr"));
   const GltfScene scene = valueOf(loadGltf(path));
-  EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material.get()));
+  EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material().get()));
 
   const GltfScene plain = loaded(planeGltf());
-  EXPECT_TRUE(dynamic_cast<const PBRMaterial*>(firstOf<MaterialGroup>(*plain.root)->material.get()));
+  EXPECT_TRUE(dynamic_cast<const PBRMaterial*>(firstOf<MaterialGroup>(*plain.root)->material().get()));
 }
 
 TEST(GltfLoader, ReadsTheExampleOfTheExtensionsPage) {
@@ -279,7 +279,7 @@ TEST(GltfLoader, ReadsTheExampleOfTheExtensionsPage) {
   const GltfScene scene = valueOf(loadGltf(path));
   EXPECT_THAT(scene.materials, ElementsAre("wool"));
   EXPECT_THAT(scene.warnings, IsEmpty());
-  EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material.get()));
+  EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material().get()));
   const auto meshes = meshesOf(scene);
   ASSERT_EQ(meshes.size(), 1u);
   EXPECT_EQ(meshes[0].mesh->tangents, std::vector<glm::vec4>(3, {1, 0, 0, 1}));
@@ -319,12 +319,12 @@ TEST(GltfLoader, DoesNotReadWhatIsReplaced) {
     GltfOptions options;
     options.replacements[name] = other;
     const GltfScene scene = valueOf(loadGltf(path, options));
-    EXPECT_EQ(firstOf<MaterialGroup>(*scene.root)->material, other);
+    EXPECT_EQ(firstOf<MaterialGroup>(*scene.root)->material(), other);
     EXPECT_THAT(scene.materials, ElementsAre("base"));
   }
   GltfOptions options;
   options.replacements["another"] = other;
-  EXPECT_NE(firstOf<MaterialGroup>(*valueOf(loadGltf(path, options)).root)->material, other);
+  EXPECT_NE(firstOf<MaterialGroup>(*valueOf(loadGltf(path, options)).root)->material(), other);
 }
 
 TEST(GltfLoader, IgnoresBrokenMaterialsThatNothingUses) {

@@ -57,8 +57,9 @@ struct Drawn {
 
 void collect(const Node& node, Drawn above, std::vector<Drawn>& drawn) {
   if (const auto* transform = dynamic_cast<const Transform*>(&node.core()))
-    above.toWorld *= transform->matrix;
-  if (const auto* group = dynamic_cast<const MaterialGroup*>(&node.core())) above.material = group->material;
+    above.toWorld *= transform->matrix();
+  if (const auto* group = dynamic_cast<const MaterialGroup*>(&node.core()))
+    above.material = group->material();
   if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core())) {
     above.mesh = geometry->mesh();
     drawn.push_back(above);

@@ -48,7 +48,7 @@ template <class BlockKind>
 ChunkList blocks() {
   ChunkList chunks;
   for (const std::size_t size : {16u, 16u, 64u, 0u})
-    chunks.push_back(std::make_shared<BlockKind>(std::vector<std::byte>(size)));
+    chunks.push_back(std::make_shared<BlockKind>(std::vector<std::byte>(size, std::byte(chunks.size()))));
   return chunks;
 }
 

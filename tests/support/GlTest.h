@@ -8,7 +8,7 @@
 
 #include "TestScene.h"
 #include "weft/scenegraph/HeadlessWindow.h"
-#include "weft/scenegraph/Renderer.h"
+#include "weft/scenegraph/RenderAction.h"
 
 namespace weft::test {
 
@@ -45,7 +45,7 @@ class GlTest : public testing::Test {
   }
 
   std::unique_ptr<HeadlessWindow> window;
-  Renderer renderer;
+  RenderAction renderer;
 };
 
 }  // namespace weft::test

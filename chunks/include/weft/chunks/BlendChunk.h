@@ -14,6 +14,9 @@ class BlendChunk : public Chunk {
   void activate(GLContext& context, unsigned slot) const override;
   void changeFrom(GLContext&, const Chunk&, unsigned) const override {}  // all are alike
   void deactivate(GLContext& context, unsigned slot) const override;
+
+ private:
+  bool isEqual(const Chunk&) const override { return true; }
 };
 
 }  // namespace weft

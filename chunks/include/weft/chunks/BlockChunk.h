@@ -26,6 +26,8 @@ class BlockChunk : public Chunk {
   BlockChunk(Slot kind, std::span<const std::byte> bytes) : kind_(kind), bytes_(bytes.begin(), bytes.end()) {}
 
  private:
+  bool isEqual(const Chunk& other) const override;
+
   Slot kind_;
   std::vector<std::byte> bytes_;
   std::uint64_t version_ = 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <typeinfo>
 
 #include "weft/chunks/GLContext.h"
 #include "weft/chunks/Slot.h"
@@ -23,6 +24,11 @@ class Chunk {
   /// The kind of slots that it fits into: the first of them.
   virtual Slot kind() const = 0;
 
+  /// Do both set the same state? Then a State leaves it as it is.
+  bool operator==(const Chunk& other) const {
+    return this == &other || (typeid(*this) == typeid(other) && isEqual(other));
+  }
+
   /// Sets its state; the slot is at its default.
   virtual void activate(GLContext& context, unsigned slot) const = 0;
   /// Sets its state; `old`, of the same kind, is active in the slot.
@@ -32,6 +38,10 @@ class Chunk {
 
  protected:
   Chunk() = default;
+
+ private:
+  /// `other` is of the same class, and not this.
+  virtual bool isEqual(const Chunk&) const { return false; }
 };
 
 }  // namespace weft

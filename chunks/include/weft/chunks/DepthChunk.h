@@ -16,6 +16,8 @@ class DepthChunk : public Chunk {
   void deactivate(GLContext& context, unsigned slot) const override;
 
  private:
+  bool isEqual(const Chunk& other) const override;
+
   bool test_;
   bool write_;
 };

@@ -1,10 +1,13 @@
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <typeindex>
 #include <typeinfo>
+#include <unordered_map>
 
+#include "weft/chunks/ShaderDefines.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Result.h"
 
@@ -19,7 +22,6 @@ struct GLLimits {
   int rectangleSize = 0;
   int uniformBlockBytes = 0;
   int storageBlockBytes = 0;
-  int uniformOffsetAlignment = 0;
 };
 
 /// What Weft has made in one GL context: the GL objects of every chunk and mesh that was drawn there, and the
@@ -41,11 +43,29 @@ class GLContext {
   /// last copy of `owner` is gone. T's destructor runs with the context current. One T an owner.
   template <class T>
   T& objectsOf(const std::shared_ptr<const void>& owner) {
-    Objects& objects = objects_[owner];
-    if (!objects.value) objects = {std::make_shared<T>(), &typeid(T)};
+    Objects& objects = objects_[owner.get()];
+    // At the address of an owner that is gone there may be another.
+    if (objects.owner.owner_before(owner) || owner.owner_before(objects.owner))
+      objects = {owner, std::make_shared<T>(), &typeid(T)};
     WEFT_EXPECT(*objects.type == typeid(T), "an owner has GL objects of one type");
     return *static_cast<T*>(objects.value.get());
   }
+
+  /// What all owners of a kind share in this context, one of each type: default-constructed at the first
+  /// call.
+  template <class T>
+  T& shared() {
+    std::shared_ptr<void>& value = shared_[typeid(T)];
+    if (!value) value = std::make_shared<T>();
+    return *static_cast<T*>(value.get());
+  }
+
+  /// What every program that is activated has defined, beside its own: what a renderer keeps the same for a
+  /// whole frame, and programs are faster for knowing, as the number of lights.
+  const ShaderDefines& programDefines() const { return programDefines_; }
+  void setProgramDefines(ShaderDefines defines);
+  /// Another one for other defines.
+  std::uint64_t programDefinesRevision() const { return programDefinesRevision_; }
 
   /// Deletes the GL objects whose owner is gone; the renderer calls it once a frame.
   void deleteOrphans();
@@ -62,13 +82,16 @@ class GLContext {
 
  private:
   struct Objects {
+    std::weak_ptr<const void> owner;
     std::shared_ptr<void> value;
     const std::type_info* type = nullptr;
   };
 
   GLLimits limits_;
-  // Compared by control block, which a weak_ptr keeps: unlike an address it is never used again.
-  std::map<std::weak_ptr<const void>, Objects, std::owner_less<>> objects_;
+  std::unordered_map<std::type_index, std::shared_ptr<void>> shared_;
+  std::unordered_map<const void*, Objects> objects_;  ///< by the owner's address
+  ShaderDefines programDefines_;
+  std::uint64_t programDefinesRevision_ = 1;
   std::optional<Error> firstError_;
 };
 

@@ -7,7 +7,8 @@
 
 namespace weft {
 
-/// A vertex and a fragment shader, compiled per context at the first activation. Default: no program.
+/// A vertex and a fragment shader, compiled per context at the first activation, once for all chunks of equal
+/// source, and anew for other values of GLContext::programDefines(). Default: no program.
 ///
 /// A program that does not compile is reported to the context at every activation, with file and line, and
 /// nothing must be drawn with it. Blocks and samplers name their bindings in GLSL: `layout(binding = N)`.
@@ -20,7 +21,15 @@ class ProgramChunk : public Chunk {
   void changeFrom(GLContext& context, const Chunk& old, unsigned slot) const override;
   void deactivate(GLContext& context, unsigned slot) const override;
 
+  /// Compiles again what was activated in this context, current on this thread, if its files say something
+  /// else than before: for shaders that are edited in ShaderSource::overrideFolder while a program runs. True
+  /// where something changed. Where the new text is in error that is returned, and drawing goes on with the
+  /// old program. All chunks of equal source change.
+  Result<bool> reload(GLContext& context) const;
+
  private:
+  bool isEqual(const Chunk& other) const override;
+
   ShaderSource source_;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();
 };

@@ -17,6 +17,8 @@ class RasterChunk : public Chunk {
   void deactivate(GLContext& context, unsigned slot) const override;
 
  private:
+  bool isEqual(const Chunk& other) const override;
+
   Culling culling_;
 };
 

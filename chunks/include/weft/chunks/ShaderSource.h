@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "weft/chunks/ShaderDefines.h"
 #include "weft/core/Result.h"
 
 namespace weft {
@@ -15,12 +17,13 @@ namespace weft {
 struct ShaderSource {
   std::string vertex;
   std::string fragment;
-  /// `#define NAME VALUE`, in both stages.
-  std::vector<std::pair<std::string, std::string>> defines{};
+  ShaderDefines defines{};  ///< in both stages
   /// `#include "KEY"` takes the file VALUE instead ("model.glsl" -> "rfnl.glsl").
   std::map<std::string, std::string> includeAliases{};
   /// Files found here are taken instead of those compiled in; empty for none.
   std::filesystem::path overrideFolder{};
+
+  auto operator<=>(const ShaderSource&) const = default;
 };
 
 /// The text of one stage with its includes put in, each file once.

@@ -12,7 +12,7 @@ enum Slot : unsigned {
   DepthSlot,
   RasterSlot,
   TextureSlot,                     ///< + texture unit 0..31
-  UniformSlot = TextureSlot + 32,  ///< + uniform block binding 0..7; the renderer keeps 0 and 1 for itself
+  UniformSlot = TextureSlot + 32,  ///< + uniform block binding 0..7; RenderAction keeps 0 for itself
   StorageSlot = UniformSlot + 8,   ///< + storage block binding 0..7
   SlotCount = StorageSlot + 8,
 };

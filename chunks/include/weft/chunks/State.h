@@ -17,8 +17,11 @@ class State {
   /// Null where the slot is empty.
   const Chunk* at(unsigned slot) const { return chunks_[slot].get(); }
 
+  /// Another one after every set(), and the same for copies alone.
+  std::uint64_t revision() const { return revision_; }
+
   /// Changes GL from `previous`, which is active, to this. Visits only slots that one of them occupies and
-  /// does nothing where both hold the same chunk.
+  /// does nothing where both hold the same chunk or equal ones.
   void changeFrom(GLContext& context, const State& previous) const;
   /// From GL's defaults.
   void activate(GLContext& context) const { changeFrom(context, State()); }
@@ -28,6 +31,7 @@ class State {
  private:
   std::array<std::shared_ptr<const Chunk>, SlotCount> chunks_;
   std::uint64_t occupied_ = 0;  ///< bit `slot`
+  std::uint64_t revision_ = 0;
   static_assert(SlotCount <= 64);
 };
 

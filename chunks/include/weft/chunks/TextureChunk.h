@@ -28,6 +28,8 @@ struct TextureOptions {
   TextureFilter filter = TextureFilter::Nearest;  ///< parameters must not be blended unasked
   TextureWrap wrap = TextureWrap::Clamp;          ///< the only one that every shape has
   bool srgb = false;  ///< 8-bit images only: the values are sRGB, sampling gives linear ones
+
+  bool operator==(const TextureOptions&) const = default;
 };
 
 /// A texture on a unit, made from an image that it shares. Default: nothing bound, on any target of the unit.
@@ -51,6 +53,8 @@ class TextureChunk : public Chunk {
   void setImage(std::shared_ptr<const Image> image);
 
  private:
+  bool isEqual(const Chunk& other) const override;
+
   using AnyImage = std::variant<std::shared_ptr<const FloatImage>, std::shared_ptr<const Image>>;
 
   void replaceImage(AnyImage image);

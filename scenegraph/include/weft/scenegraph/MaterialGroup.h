@@ -8,12 +8,19 @@
 namespace weft {
 
 /// Gives everything below it a material. Where groups are nested the outermost wins, so that a whole model
-/// can be re-dressed from above.
+/// can be re-dressed from above; null leaves it to the groups below.
 class MaterialGroup : public NodeCore {
  public:
-  explicit MaterialGroup(std::shared_ptr<const Material> shared) : material(std::move(shared)) {}
+  explicit MaterialGroup(std::shared_ptr<const Material> material) : material_(std::move(material)) {}
 
-  std::shared_ptr<const Material> material;
+  const std::shared_ptr<const Material>& material() const { return material_; }
+  void setMaterial(std::shared_ptr<const Material> material) {
+    material_ = std::move(material);
+    changed();
+  }
+
+ private:
+  std::shared_ptr<const Material> material_;
 };
 
 }  // namespace weft

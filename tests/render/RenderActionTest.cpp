@@ -1,4 +1,4 @@
-#include "weft/scenegraph/Renderer.h"
+#include "weft/scenegraph/RenderAction.h"
 
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
@@ -52,15 +52,15 @@ glm::vec4 pixel(const FloatImage& image, int x, int y) {
 #define EXPECT_COLOR(actual, r, g, b) \
   EXPECT_LT(glm::distance(glm::vec3(actual), glm::vec3(r, g, b)), 1e-3f) << #actual
 
-class RendererTest : public test::GlTest {};
+class RenderActionTest : public test::GlTest {};
 
-TEST_F(RendererTest, BackgroundIsWhatNothingCovers) {
+TEST_F(RenderActionTest, BackgroundIsWhatNothingCovers) {
   const FloatImage image = picture(Node(), 3, 2, {.background = {0.25f, 2.0f, -1.0f, 0.5f}});
   EXPECT_EQ(pixel(image, 2, 1), glm::vec4(0.25f, 2.0f, -1.0f, 0.5f));
   EXPECT_EQ(image.channels(), (std::vector<std::string>{"R", "G", "B", "A"}));
 }
 
-TEST_F(RendererTest, FirstRowOfThePictureIsItsTop) {
+TEST_F(RenderActionTest, FirstRowOfThePictureIsItsTop) {
   auto root = lit();
   root->addChild(moved(test::dressed(matt({1, 0, 0})), {-0.5f, 0.5f, 0}, 0.5f));
   const FloatImage image = picture(*root);
@@ -69,13 +69,13 @@ TEST_F(RendererTest, FirstRowOfThePictureIsItsTop) {
   EXPECT_COLOR(pixel(image, 1, 6), 0, 0, 0);
 }
 
-TEST_F(RendererTest, OutermostMaterialGroupWins) {
+TEST_F(RenderActionTest, OutermostMaterialGroupWins) {
   auto root = lit();
   root->addChild(std::make_shared<MaterialGroup>(matt({0, 1, 0})))->addChild(test::dressed(matt({1, 0, 0})));
   EXPECT_COLOR(pixel(picture(*root), 4, 4), 0, 1, 0);
 }
 
-TEST_F(RendererTest, OneCoreShowsUnderEveryNodeThatSharesIt) {
+TEST_F(RenderActionTest, OneCoreShowsUnderEveryNodeThatSharesIt) {
   const auto geometry = std::make_shared<Geometry>(square());
   auto group = std::make_shared<Node>(std::make_shared<MaterialGroup>(matt({1, 1, 1})));
   group->addChild(moved(std::make_shared<Node>(geometry), {-0.5f, 0, 0}, 0.25f));
@@ -89,7 +89,7 @@ TEST_F(RendererTest, OneCoreShowsUnderEveryNodeThatSharesIt) {
   EXPECT_COLOR(pixel(image, 4, 4), 0, 0, 0);
 }
 
-TEST_F(RendererTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
+TEST_F(RenderActionTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
   for (const bool nearFirst : {false, true}) {
     auto root = lit();
     const auto near = moved(test::dressed(matt({1, 0, 0})), {0, 0, 0.5f});
@@ -100,7 +100,7 @@ TEST_F(RendererTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
   }
 }
 
-TEST_F(RendererTest, BlendedThingsAreDrawnLastAndFromBackToFront) {
+TEST_F(RenderActionTest, BlendedThingsAreDrawnLastAndFromBackToFront) {
   const auto glass = [](glm::vec3 color) {
     auto material = matt(color, 0.5f);
     material->setChunk(BlendSlot, std::make_shared<BlendChunk>());
@@ -113,7 +113,7 @@ TEST_F(RendererTest, BlendedThingsAreDrawnLastAndFromBackToFront) {
   EXPECT_COLOR(pixel(picture(*root), 4, 4), 0.5f, 0.25f, 0.25f);
 }
 
-TEST_F(RendererTest, LeavesGLAsItStartsUp) {
+TEST_F(RenderActionTest, LeavesGLAsItStartsUp) {
   const test::GlSnapshot before = test::takeGlSnapshot();
   auto texture = std::make_shared<Image>(3, 3, 3);
   auto root = lit();
@@ -124,7 +124,7 @@ TEST_F(RendererTest, LeavesGLAsItStartsUp) {
   EXPECT_EQ(test::difference(test::takeGlSnapshot(), before), "");
 }
 
-TEST_F(RendererTest, MoreLightsThanTheShadersHaveAreAnError) {
+TEST_F(RenderActionTest, MoreLightsThanTheShadersHaveAreAnError) {
   auto root = lit();
   root->addChild(test::dressed(matt({1, 1, 1})));
   for (int i = 0; i < 15; ++i) root->addChild(std::make_shared<PointLight>(glm::vec3(0.0f)));
@@ -135,7 +135,7 @@ TEST_F(RendererTest, MoreLightsThanTheShadersHaveAreAnError) {
   EXPECT_THAT(rendered.error().what, HasSubstr("17 lights, at most 16"));
 }
 
-TEST_F(RendererTest, GeometryWithoutMaterialIsAnErrorThatNamesIt) {
+TEST_F(RenderActionTest, GeometryWithoutMaterialIsAnErrorThatNamesIt) {
   auto root = lit();
   root->addChild(std::make_shared<Geometry>(square()), "bare");
   const auto rendered = renderer.render(context(), *root, squareCamera(), RenderTarget(4, 4));
@@ -143,13 +143,13 @@ TEST_F(RendererTest, GeometryWithoutMaterialIsAnErrorThatNamesIt) {
   EXPECT_EQ(rendered.error().where, "bare");
 }
 
-TEST_F(RendererTest, GeometryWithoutTrianglesIsNothing) {
+TEST_F(RenderActionTest, GeometryWithoutTrianglesIsNothing) {
   auto root = lit();
   root->addChild(test::dressed(matt({1, 1, 1}), std::make_shared<Mesh>()));
   EXPECT_COLOR(pixel(picture(*root), 4, 4), 0, 0, 0);
 }
 
-TEST_F(RendererTest, GraphOfAnyDepthIsDrawn) {
+TEST_F(RenderActionTest, GraphOfAnyDepthIsDrawn) {
   auto node = test::dressed(matt({1, 1, 1}));
   std::vector<std::shared_ptr<Node>> chain{node};  // lets them go one by one, not by recursion
   for (int i = 0; i < 100000; ++i) {
@@ -165,7 +165,7 @@ TEST_F(RendererTest, GraphOfAnyDepthIsDrawn) {
   while (!chain.empty()) chain.pop_back();
 }
 
-TEST_F(RendererTest, TwoContextsDrawTheSameScene) {
+TEST_F(RenderActionTest, TwoContextsDrawTheSameScene) {
   auto texture = std::make_shared<Image>(1, 1, 3);
   texture->bytes = {255, 0, 255};
   auto root = lit();
@@ -180,7 +180,7 @@ TEST_F(RendererTest, TwoContextsDrawTheSameScene) {
     }
 }
 
-TEST_F(RendererTest, ThreadsWithContextsOfTheirOwnDrawTheSameScene) {
+TEST_F(RenderActionTest, ThreadsWithContextsOfTheirOwnDrawTheSameScene) {
   auto root = lit();
   root->addChild(test::dressed(matt({0, 1, 1})));
   std::vector<glm::vec4> seen(2);
@@ -188,7 +188,7 @@ TEST_F(RendererTest, ThreadsWithContextsOfTheirOwnDrawTheSameScene) {
   for (glm::vec4& color : seen)
     threads.emplace_back([&root, &color] {
       const auto own = test::valueOf(HeadlessWindow::create(true));
-      Renderer ownRenderer;
+      RenderAction ownRenderer;
       const RenderTarget target(8, 8);
       for (int frame = 0; frame < 3; ++frame)
         ASSERT_TRUE(ownRenderer.render(own->context(), *root, squareCamera(), target));
@@ -198,7 +198,7 @@ TEST_F(RendererTest, ThreadsWithContextsOfTheirOwnDrawTheSameScene) {
   for (const glm::vec4& color : seen) EXPECT_COLOR(color, 0, 1, 1);
 }
 
-TEST_F(RendererTest, SceneOutlivesEveryContext) {
+TEST_F(RenderActionTest, SceneOutlivesEveryContext) {
   auto root = lit();
   root->addChild(test::dressed(matt({1, 1, 0})));
   picture(*root);
@@ -209,7 +209,7 @@ TEST_F(RendererTest, SceneOutlivesEveryContext) {
   root.reset();  // no context is current: a GL call would crash
 }
 
-TEST_F(RendererTest, ObjectsOfDestroyedOwnersAreDeletedInTheirContextAtItsNextFrame) {
+TEST_F(RenderActionTest, ObjectsOfDestroyedOwnersAreDeletedInTheirContextAtItsNextFrame) {
   auto block = std::make_shared<UniformBlockChunk>(std::vector<std::byte>(16));
   block->activate(context(), uniformSlot(2));
   GLint buffer = 0;
@@ -225,7 +225,7 @@ TEST_F(RendererTest, ObjectsOfDestroyedOwnersAreDeletedInTheirContextAtItsNextFr
   EXPECT_FALSE(glIsBuffer(static_cast<GLuint>(buffer)));
 }
 
-TEST_F(RendererTest, ChangedChunkShowsInEveryContext) {
+TEST_F(RenderActionTest, ChangedChunkShowsInEveryContext) {
   auto material = std::make_shared<LambertMaterial>();
   const auto color = std::make_shared<UniformBlockChunk>(blockBytes(glm::vec4(1, 0, 0, 1)));
   material->setChunk(uniformSlot(2), color);
@@ -243,7 +243,7 @@ TEST_F(RendererTest, ChangedChunkShowsInEveryContext) {
   }
 }
 
-TEST_F(RendererTest, GLErrorsComeBackFromRender) {
+TEST_F(RenderActionTest, GLErrorsComeBackFromRender) {
   glBindBuffer(GL_TEXTURE_2D, 0);  // no such target
   const auto rendered = renderer.render(context(), Node(), squareCamera(), RenderTarget(4, 4));
   ASSERT_FALSE(rendered);

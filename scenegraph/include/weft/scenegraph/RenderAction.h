@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <memory>
+
+#include "weft/chunks/GLContext.h"
+#include "weft/core/Result.h"
+#include "weft/scenegraph/Camera.h"
+#include "weft/scenegraph/Node.h"
+#include "weft/scenegraph/RenderTarget.h"
+
+namespace weft {
+
+struct RenderOptions {
+  glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};  ///< linear RGBA
+};
+
+/// What one frame did.
+struct RenderStatistics {
+  std::size_t objects = 0;       ///< geometries in the scene, once for each place at which they are shown
+  std::size_t culled = 0;        ///< of these, outside of the picture or not at their level of detail
+  std::size_t triangles = 0;     ///< drawn; lines and points are not counted
+  std::size_t drawCalls = 0;     ///< of GL, each of which may draw many objects
+  std::size_t draws = 0;         ///< within these: meshes, or groups of instances of one
+  std::size_t stateChanges = 0;  ///< from one material to another
+  std::size_t lights = 0;
+};
+
+/// Draws a scene. One may serve many scenes, targets and contexts, one render() at a time; several may draw
+/// the same scene at once, each on the thread of its own context.
+class RenderAction {
+ public:
+  RenderAction();
+  ~RenderAction();
+  RenderAction(RenderAction&&) noexcept;
+  RenderAction& operator=(RenderAction&&) noexcept;
+
+  /// Draws everything below `root` as the camera sees it, lit by the lights below `root`, and leaves GL as it
+  /// starts up, but for the viewport. Fails on more than 16 lights, on a geometry without a material, and on
+  /// whatever was reported to the context: a shader that does not compile, an image too large.
+  Result<void> render(GLContext& context, const Node& root, const Camera& camera, const RenderTarget& target,
+                      const RenderOptions& options = {});
+
+  /// Of the latest render().
+  const RenderStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Frame;
+
+  std::unique_ptr<Frame> frame_;
+  RenderStatistics statistics_;
+  std::shared_ptr<const void> owner_ = std::make_shared<char>();
+};
+
+}  // namespace weft

@@ -1,0 +1,144 @@
+#include "BoxTable.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace weft {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// How far outside a box may seem to be although it touches the plane: rounding of sums of this size.
+float rounding(glm::vec4 plane, glm::vec3 center, glm::vec3 extent) {
+  const float size = glm::dot(glm::abs(glm::vec3(plane)), glm::abs(center) + extent) + std::abs(plane.w);
+  return 8.0f * std::numeric_limits<float>::epsilon() * size;
+}
+
+/// Whether the half-line meets the box; slabs that it is parallel to and in give NaN, which lets it pass.
+bool meets(const Ray& ray, glm::vec3 center, glm::vec3 extent) {
+  float enter = 0.0f, leave = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float offset = center[axis] - ray.origin[axis];
+    const float slack =
+        4.0f * std::numeric_limits<float>::epsilon() * (std::abs(center[axis]) + extent[axis]);
+    const float reach = extent[axis] + slack;
+    if (ray.direction[axis] == 0.0f) {
+      if (std::abs(offset) > reach) return false;
+      continue;
+    }
+    const float a = (offset - reach) / ray.direction[axis], b = (offset + reach) / ray.direction[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return !(enter > leave * (1.0f + 4.0f * std::numeric_limits<float>::epsilon()));
+}
+
+/// Appends first + i for every bit i of the mask.
+void append(std::uint64_t mask, std::size_t block, std::vector<std::uint32_t>& numbers) {
+  const auto first = static_cast<std::uint32_t>(block * BoxTable::kBlock);
+  for (; mask != 0; mask &= mask - 1)
+    numbers.push_back(first + static_cast<std::uint32_t>(std::countr_zero(mask)));
+}
+
+}  // namespace
+
+void BoxTable::set(std::uint32_t number, glm::vec3 center, glm::vec3 extent) {
+  if (number / kBlock >= blocks_.size()) blocks_.resize(number / kBlock + 1);
+  Block& block = blocks_[number / kBlock];
+  for (int axis = 0; axis < 3; ++axis) {
+    block.center[static_cast<std::size_t>(axis)][number % kBlock] = center[axis];
+    block.extent[static_cast<std::size_t>(axis)][number % kBlock] = extent[axis];
+  }
+  block.occupied |= std::uint64_t{1} << number % kBlock;
+  if (!std::exchange(block.changed, true)) changed_.push_back(number / kBlock);
+}
+
+void BoxTable::clear(std::uint32_t number) {
+  Block& block = blocks_[number / kBlock];
+  block.occupied &= ~(std::uint64_t{1} << number % kBlock);
+  if (!std::exchange(block.changed, true)) changed_.push_back(number / kBlock);
+}
+
+void BoxTable::update() {
+  for (const std::uint32_t block : changed_) mend(blocks_[block]);
+  changed_.clear();
+}
+
+void BoxTable::mend(Block& block) {
+  block.changed = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    float low = kInfinity, high = -kInfinity;
+    for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(mask));
+      low = std::min(low, block.center[axis][i] - block.extent[axis][i]);
+      high = std::max(high, block.center[axis][i] + block.extent[axis][i]);
+      // What is not a number lies everywhere.
+      if (std::isnan(block.center[axis][i] + block.extent[axis][i])) low = -kInfinity, high = kInfinity;
+    }
+    block.blockCenter[static_cast<int>(axis)] = 0.5f * (low + high);
+    block.blockExtent[static_cast<int>(axis)] = 0.5f * (high - low);
+  }
+}
+
+std::uint64_t BoxTable::insideMask(const Block& block, const Frustum& frustum) {
+  bool allInside = true;
+  for (const glm::vec4 plane : frustum.planes) {
+    const glm::vec3 normal(plane);
+    const float distance = glm::dot(normal, block.blockCenter) + plane.w;
+    const float reach = glm::dot(glm::abs(normal), block.blockExtent);
+    const float slack = rounding(plane, block.blockCenter, block.blockExtent);
+    if (distance + reach < -slack) return 0;
+    allInside = allInside && distance - reach >= slack;
+  }
+  if (allInside) return block.occupied;
+
+  // How far the innermost corner of each box is inside the plane that it is least inside of.
+  Lane inside;
+  inside.fill(kInfinity);
+  for (const glm::vec4 plane : frustum.planes) {
+    const glm::vec3 reach = glm::abs(glm::vec3(plane));
+    const float offset = plane.w + rounding(plane, block.blockCenter, block.blockExtent);
+    const float* cx = block.center[0].data();
+    const float* cy = block.center[1].data();
+    const float* cz = block.center[2].data();
+    const float* ex = block.extent[0].data();
+    const float* ey = block.extent[1].data();
+    const float* ez = block.extent[2].data();
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const float distance = offset + plane.x * cx[i] + plane.y * cy[i] + plane.z * cz[i] + reach.x * ex[i] +
+                             reach.y * ey[i] + reach.z * ez[i];
+      inside[i] = distance < inside[i] ? distance : inside[i];  // not for NaN
+    }
+  }
+  std::uint64_t mask = 0;
+  for (std::size_t i = 0; i < kBlock; ++i) mask |= std::uint64_t{inside[i] >= 0.0f} << i;
+  return mask & block.occupied;
+}
+
+void BoxTable::findInside(const Frustum& frustum, std::vector<std::uint32_t>& numbers) const {
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (blocks_[i].occupied != 0) append(insideMask(blocks_[i], frustum), i, numbers);
+}
+
+void BoxTable::findMet(const Ray& ray, std::vector<std::uint32_t>& numbers) const {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Block& block = blocks_[i];
+    if (block.occupied == 0 || !meets(ray, block.blockCenter, block.blockExtent)) continue;
+    std::uint64_t met = 0;
+    for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(mask));
+      const glm::vec3 center(block.center[0][k], block.center[1][k], block.center[2][k]);
+      const glm::vec3 extent(block.extent[0][k], block.extent[1][k], block.extent[2][k]);
+      if (meets(ray, center, extent)) met |= std::uint64_t{1} << k;
+    }
+    append(met, i, numbers);
+  }
+}
+
+}  // namespace weft

@@ -1,0 +1,275 @@
+#include "weft/scenegraph/RenderAction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "DrawList.h"
+#include "FlatScene.h"
+#include "FrameBlock.h"
+#include "MeshPool.h"
+#include "weft/chunks/GLName.h"
+
+namespace weft {
+
+namespace {
+
+/// The GL buffers of an action, filled anew in each frame.
+struct FrameObjects {
+  GLBuffer frame;
+  GLBuffer models;
+  GLBuffer commands;
+};
+
+/// Where a scene's meshes lie in a context, by their number in the scene.
+struct ScenePlaces {
+  struct Known {
+    std::uint64_t serial = 0;
+    const MeshPlace* place = nullptr;
+  };
+  std::vector<Known> known;
+};
+
+/// What glMultiDrawElementsIndirect() reads.
+struct DrawCommand {
+  std::uint32_t indexCount;
+  std::uint32_t instanceCount;
+  std::uint32_t firstIndex;
+  std::int32_t baseVertex;
+  std::uint32_t baseInstance;
+};
+static_assert(sizeof(DrawCommand) == 20);
+
+/// Draws of one state and one vertex array, made by one call of GL.
+struct Batch {
+  std::uint32_t material;
+  const MeshPage* page;
+  GLenum mode;
+  bool mirrored;
+  std::uint32_t firstCommand;
+  std::uint32_t commandCount = 0;
+
+  bool sameCall(const Batch& other) const {
+    return material == other.material && page == other.page && mode == other.mode &&
+           mirrored == other.mirrored;
+  }
+};
+
+glm::vec3 unitOrZero(glm::vec3 v) {
+  const float length = glm::length(v);
+  return length > 0.0f ? v / length : glm::vec3(0.0f);
+}
+
+float inverseSquare(float range) {
+  return 1.0f / (range * range);
+}
+
+LightBlock blockOf(const PlacedLight& light) {
+  const glm::vec4 position(glm::vec3(light.toWorld[3]), 0.0f);
+  const glm::vec3 backwards = unitOrZero(glm::vec3(light.toWorld[2]));
+  if (const auto* directional = dynamic_cast<const DirectionalLight*>(light.core))
+    return {glm::vec4(backwards, 0.0f), glm::vec4(directional->irradiance, 0.0f)};
+  if (const auto* point = dynamic_cast<const PointLight*>(light.core))
+    return {position, glm::vec4(point->intensity, inverseSquare(point->range))};
+  const auto& spot = static_cast<const SpotLight&>(*light.core);
+  const float outer = std::cos(spot.outerAngle);
+  const float slope = 1.0f / std::max(std::cos(spot.innerAngle) - outer, 1e-3f);
+  return {position, glm::vec4(spot.intensity, inverseSquare(spot.range)),
+          glm::vec4(-slope * backwards, -slope * outer)};
+}
+
+/// What the shaders of a frame share.
+struct FrameNumbers {
+  FrameBlock block;
+  int directionalLights = 0, placedLights = 0;
+
+  ShaderDefines defines() const {
+    return {{"DIRECTIONAL_LIGHTS", fmt::to_string(directionalLights)},
+            {"PLACED_LIGHTS", fmt::to_string(placedLights)}};
+  }
+};
+
+Result<FrameNumbers> frameNumbers(const FlatScene& scene, const Camera& camera,
+                                  const glm::mat4& viewProjection) {
+  std::vector<LightBlock> directional, placed;
+  for (const PlacedLight& light : scene.lights().all())
+    if (light.core && scene.shows(light.level, camera.position()))
+      (dynamic_cast<const DirectionalLight*>(light.core) ? directional : placed).push_back(blockOf(light));
+  const std::size_t count = directional.size() + placed.size();
+  if (count > kMaximumLights)
+    return fail(fmt::format("the scene has {} lights, at most {} can be drawn", count, kMaximumLights));
+
+  FrameNumbers numbers{{viewProjection, glm::vec4(camera.position(), 1.0f), {}},
+                       static_cast<int>(directional.size()),
+                       static_cast<int>(placed.size())};
+  std::copy(placed.begin(), placed.end(),
+            std::copy(directional.begin(), directional.end(), numbers.block.lights.begin()));
+  return numbers;
+}
+
+/// The place of a mesh of the scene in the buffers of the context.
+const MeshPlace& placeOf(GLContext& context, ScenePlaces& places, const UsedMesh& mesh,
+                         std::uint32_t number) {
+  if (number >= places.known.size()) places.known.resize(number + 1);
+  ScenePlaces::Known& known = places.known[number];
+  if (known.serial != mesh.serial) known = {mesh.serial, &meshPlace(context, mesh.mesh)};
+  return *known.place;
+}
+
+void fill(GLBuffer& buffer, const void* data, std::size_t bytes) {
+  if (!buffer) buffer = createGL<GLBuffer>(glCreateBuffers);
+  glNamedBufferData(buffer, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+/// The lists of a frame, kept for their memory.
+struct RenderAction::Frame {
+  std::vector<std::uint32_t> visible;
+  DrawList list;
+  std::vector<ModelRows> models;  ///< in the order of drawing
+  std::vector<DrawCommand> commands;
+  std::vector<Batch> batches;
+
+  void findVisible(const FlatScene& scene, const Camera& camera, const glm::mat4& viewProjection);
+  void sort(GLContext& context, const FlatScene& scene, const Camera& camera);
+  void batch(GLContext& context, const FlatScene& scene);
+  void draw(GLContext& context, const FlatScene& scene, const FrameObjects& objects,
+            RenderStatistics& statistics) const;
+};
+
+void RenderAction::Frame::findVisible(const FlatScene& scene, const Camera& camera,
+                                      const glm::mat4& viewProjection) {
+  visible.clear();
+  scene.boxes().findInside(Frustum(viewProjection), visible);
+  std::erase_if(visible, [&, eye = camera.position()](std::uint32_t number) {
+    const Level level = scene.objects()[number].level;
+    return level.lod != kNone && !scene.shows(level, eye);
+  });
+}
+
+void RenderAction::Frame::sort(GLContext& context, const FlatScene& scene, const Camera& camera) {
+  auto& places = context.objectsOf<ScenePlaces>(scene.owner());
+  const glm::vec4 depthRow = -glm::transpose(camera.view)[2];
+  list.clear();
+  for (const std::uint32_t number : visible) {
+    const FlatObject& object = scene.objects()[number];
+    const UsedMesh& mesh = scene.meshes()[object.mesh];
+    const UsedMaterial& material = scene.materials()[object.material];
+    const MeshPlace& place = placeOf(context, places, mesh, object.mesh);
+    list.add({.blended = material.blended,
+              .program = material.program,
+              .material = object.material,
+              .kind = static_cast<std::uint32_t>(mesh.mesh->topology) << 1 | (object.mirrored ? 1u : 0u),
+              .page = place.page->number,
+              .mesh = mesh.uses > 1 ? object.mesh + 1 : 0,
+              .depth = glm::dot(depthRow, glm::vec4(scene.boxes().center(number), 1.0f))},
+             number);
+  }
+  list.sort();
+}
+
+void RenderAction::Frame::batch(GLContext& context, const FlatScene& scene) {
+  auto& places = context.objectsOf<ScenePlaces>(scene.owner());
+  models.clear();
+  commands.clear();
+  batches.clear();
+  const MeshPlace* latest = nullptr;
+  for (const DrawItem& item : list.items()) {
+    const FlatObject& object = scene.objects()[item.object];
+    const MeshPlace& place = placeOf(context, places, scene.meshes()[object.mesh], object.mesh);
+    const Batch next{object.material, place.page.get(), place.mode, object.mirrored,
+                     static_cast<std::uint32_t>(commands.size())};
+    const bool sameCall = !batches.empty() && next.sameCall(batches.back());
+    if (!sameCall) batches.push_back(next);
+    if (sameCall && &place == latest) {
+      ++commands.back().instanceCount;
+    } else {
+      commands.push_back({place.indexCount, 1, place.firstIndex, static_cast<std::int32_t>(place.firstVertex),
+                          static_cast<std::uint32_t>(models.size())});
+      ++batches.back().commandCount;
+    }
+    models.push_back(object.model);
+    latest = &place;
+  }
+}
+
+void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, const FrameObjects& objects,
+                               RenderStatistics& statistics) const {
+  const State defaults;
+  const State* active = &defaults;
+  const MeshPage* page = nullptr;
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, objects.frame);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, objects.commands);
+  for (const Batch& each : batches) {
+    const State& state = scene.materials()[each.material].material->state();
+    if (&state != active) {
+      state.changeFrom(context, *active);
+      active = &state;
+      ++statistics.stateChanges;
+    }
+    if (context.failed()) break;  // there may be no program
+    if (page != each.page) {
+      page = each.page;
+      glBindVertexArray(page->array);
+      glVertexArrayVertexBuffer(page->array, kModelBinding, objects.models, 0, sizeof(ModelRows));
+    }
+    glFrontFace(each.mirrored ? GL_CW : GL_CCW);
+    glMultiDrawElementsIndirect(each.mode, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(each.firstCommand * sizeof(DrawCommand)),
+                                static_cast<GLsizei>(each.commandCount), 0);
+    ++statistics.drawCalls;
+  }
+  active->deactivate(context);
+  glFrontFace(GL_CCW);
+  glBindVertexArray(0);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, 0);
+}
+
+RenderAction::RenderAction() : frame_(std::make_unique<Frame>()) {}
+RenderAction::~RenderAction() = default;
+RenderAction::RenderAction(RenderAction&&) noexcept = default;
+RenderAction& RenderAction::operator=(RenderAction&&) noexcept = default;
+
+Result<void> RenderAction::render(GLContext& context, const Node& root, const Camera& camera,
+                                  const RenderTarget& target, const RenderOptions& options) {
+  FlatScene& scene = FlatScene::of(root);
+  const auto lock = scene.look();
+  context.deleteOrphans();
+  if (const Node* undressed = scene.undressed())
+    return fail("a geometry has no material", undressed->name(), "put it below a MaterialGroup");
+  const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
+  const glm::mat4 viewProjection = camera.projection(aspect) * camera.view;
+  WEFT_TRY(const FrameNumbers numbers, frameNumbers(scene, camera, viewProjection));
+
+  frame_->findVisible(scene, camera, viewProjection);
+  frame_->sort(context, scene, camera);
+  frame_->batch(context, scene);
+  statistics_ = {.objects = scene.objects().used(),
+                 .culled = scene.objects().used() - frame_->visible.size(),
+                 .draws = frame_->commands.size(),
+                 .lights = static_cast<std::size_t>(numbers.directionalLights + numbers.placedLights)};
+  for (const Batch& each : frame_->batches)
+    for (const DrawCommand& command :
+         std::span(frame_->commands).subspan(each.firstCommand, each.commandCount))
+      if (each.mode == GL_TRIANGLES) statistics_.triangles += command.indexCount / 3 * command.instanceCount;
+
+  auto& objects = context.objectsOf<FrameObjects>(owner_);
+  fill(objects.frame, &numbers.block, sizeof numbers.block);
+  context.setProgramDefines(numbers.defines());
+  if (!frame_->models.empty()) {
+    fill(objects.models, frame_->models.data(), frame_->models.size() * sizeof(ModelRows));
+    fill(objects.commands, frame_->commands.data(), frame_->commands.size() * sizeof(DrawCommand));
+  }
+  target.bindAndClear(context, options.background);
+  if (!context.failed()) frame_->draw(context, scene, objects, statistics_);
+  RenderTarget::unbind();
+  return context.takeErrors();
+}
+
+}  // namespace weft
