@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "weft/core/Contract.h"
+
 namespace weft {
 
 glm::vec3 directionFromDegrees(double theta, double phi) {
@@ -19,6 +21,14 @@ glm::dvec2 degreesFromDirection(glm::vec3 direction) {
   const double phi =
       glm::degrees(std::atan2(static_cast<double>(direction.y), static_cast<double>(direction.x)));
   return {theta, phi < 0.0 ? phi + 360.0 : phi};
+}
+
+std::size_t nearestDirection(std::span<const glm::vec3> directions, glm::vec3 wanted) {
+  WEFT_EXPECT(!directions.empty(), "there are directions");
+  return static_cast<std::size_t>(
+      std::ranges::max_element(directions, {},
+                               [&](glm::vec3 direction) { return glm::dot(direction, wanted); }) -
+      directions.begin());
 }
 
 glm::vec2 parabolicFromDirection(glm::vec3 direction) {

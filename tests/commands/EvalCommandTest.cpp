@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "ClothZip.h"
+#include "HtmlPage.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -23,12 +23,6 @@ using test::runProgram;
 using test::valueOf;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string textOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 TEST(EvalCommand, FindsTheErrorsThatTheFitReported) {
   const fs::path folder = test::testFolder();
@@ -57,7 +51,7 @@ TEST(EvalCommand, ReportsStandAlone) {
       0);
   ASSERT_EQ(runProgram("weft-eval", {field, "--against", zip, "--report", folder / "eval.html"}).exitCode, 0);
   for (const char* name : {"fit.html", "eval.html"}) {
-    const std::string html = textOf(folder / name);
+    const std::string html = test::pageWithoutPictures(folder / name);
     EXPECT_THAT(html, HasSubstr("stored luminance"));
     EXPECT_THAT(html, HasSubstr("data:image/png;base64,"));
     EXPECT_THAT(html, Not(HasSubstr("http")));

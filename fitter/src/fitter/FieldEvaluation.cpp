@@ -16,13 +16,6 @@
 namespace weft {
 namespace {
 
-/// The measured direction nearest to one.
-std::size_t nearestTo(const std::vector<glm::vec3>& directions, glm::vec3 wanted) {
-  const auto nearest = std::ranges::max_element(
-      directions, {}, [&](glm::vec3 direction) { return glm::dot(direction, wanted); });
-  return static_cast<std::size_t>(nearest - directions.begin());
-}
-
 /// Pairs that show most of what there is to see: light along and across the view, high and low.
 struct ShownPair {
   std::size_t view, light;
@@ -33,7 +26,7 @@ std::vector<ShownPair> shownPairs(const BtfDescription& measured) {
   for (const auto& [view, light] : {std::pair(directionFromDegrees(0, 0), directionFromDegrees(45, 180)),
                                     std::pair(directionFromDegrees(45, 0), directionFromDegrees(30, 90)),
                                     std::pair(directionFromDegrees(75, 0), directionFromDegrees(60, 180))})
-    pairs.push_back({nearestTo(measured.views, view), nearestTo(measured.lights, light)});
+    pairs.push_back({nearestDirection(measured.views, view), nearestDirection(measured.lights, light)});
   return pairs;
 }
 

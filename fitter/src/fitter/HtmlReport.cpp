@@ -16,7 +16,7 @@ namespace weft {
 namespace {
 
 constexpr std::string_view kStyle = R"(
-body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 80rem; margin: 2rem auto; padding: 0 1rem; }
 h1, h2 { font-weight: 600; line-height: 1.2; }
 h2 { margin-top: 2.5rem; border-bottom: 1px solid #ddd; padding-bottom: .3rem; }
 p { max-width: 48rem; }
@@ -70,12 +70,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
-}
-
-/// How many screen pixels an image's pixel takes: small images would be stamps.
-int enlargement(int width) {
-  constexpr int kWanted = 280;
-  return std::clamp(kWanted / width, 1, 32);
 }
 
 // --- Plots ---
@@ -270,7 +264,7 @@ Result<void> HtmlReport::pictures(std::span<const ReportPicture> pictures) {
   html_ += "<div class=\"pictures\">\n";
   for (const ReportPicture& picture : pictures) {
     WEFT_TRY(const std::vector<std::uint8_t> png, encodePng(picture.image));
-    const int factor = enlargement(picture.image.width);
+    const int factor = std::max(picture.width / picture.image.width, 1);
     const int width = factor * picture.image.width;
     html_ += fmt::format(
         "<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "

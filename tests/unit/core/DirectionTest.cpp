@@ -54,5 +54,14 @@ TEST(Parabolic, GivesUnitVectorsForThePlane) {
       EXPECT_NEAR(glm::length(directionFromParabolic({x, y})), 1.0f, 1e-6f);
 }
 
+TEST(Direction, TheNearestIsTheOneAtTheSmallestAngle) {
+  const std::vector<glm::vec3> directions{directionFromDegrees(0, 0), directionFromDegrees(30, 0),
+                                          directionFromDegrees(30, 180), directionFromDegrees(60, 0)};
+  EXPECT_EQ(nearestDirection(directions, directionFromDegrees(14, 0)), 0u);
+  EXPECT_EQ(nearestDirection(directions, directionFromDegrees(25, 350)), 1u);
+  EXPECT_EQ(nearestDirection(directions, directionFromDegrees(25, 170)), 2u);
+  EXPECT_EQ(nearestDirection(directions, directionFromDegrees(80, 10)), 3u);
+}
+
 }  // namespace
 }  // namespace weft

@@ -77,7 +77,7 @@ TEST(HtmlReport, PicturesComeBackFromThePage) {
   ASSERT_EQ(encoded.size(), 2u);
   EXPECT_EQ(valueOf(decodeImage(bytesOfBase64(encoded[0]), "small")).bytes, small.bytes);
   EXPECT_EQ(valueOf(decodeImage(bytesOfBase64(encoded[1]), "large")).bytes, large.bytes);
-  EXPECT_THAT(matches(report.html(), "<img width=\"([0-9]+)\""), testing::ElementsAre("96", "400"));
+  EXPECT_THAT(matches(report.html(), "<img width=\"([0-9]+)\""), testing::ElementsAre("279", "400"));
   expectBalanced(report.html());
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
 namespace weft {
 
@@ -14,6 +16,9 @@ glm::vec3 directionFromDegrees(double theta, double phi);
 
 /// The polar angle and the azimuth (0 <= phi < 360) of a unit vector, in degrees; phi is 0 at the pole.
 glm::dvec2 degreesFromDirection(glm::vec3 direction);
+
+/// The index of the direction at the smallest angle to `wanted`, the first of several; there must be one.
+std::size_t nearestDirection(std::span<const glm::vec3> directions, glm::vec3 wanted);
 
 /// Parabolic (stereographic) coordinates (x, y) / (1 + z): the upper hemisphere fills the unit disk. Needs z
 /// > -1.

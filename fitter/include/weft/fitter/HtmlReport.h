@@ -21,11 +21,12 @@ struct ReportTable {
   std::vector<std::vector<std::string>> rows;  ///< as long as the header
 };
 
-/// A picture as it is stored; small ones are shown enlarged, texel by texel.
+/// A picture as it is stored; small ones are shown enlarged by a whole number, texel by texel.
 struct ReportPicture {
   Image image;
   std::string caption;
   std::optional<ColorScale> scale{};  ///< drawn below pictures in false colours
+  int width = 280;                    ///< up to which it is enlarged, screen pixels
 };
 
 struct PlotSeries {

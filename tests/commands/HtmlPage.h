@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace weft::test {
+
+inline std::string textOf(const std::filesystem::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A page without the bytes of its pictures, in which any word may occur.
+inline std::string pageWithoutPictures(const std::filesystem::path& file) {
+  std::string text = textOf(file);
+  const std::string start = ";base64,";
+  for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + start.size()))
+    text.erase(at + start.size(), text.find('"', at) - at - start.size());
+  return text;
+}
+
+}  // namespace weft::test
