@@ -193,8 +193,6 @@ Result<std::string> compareModels(const RawBtf& btf, const ComparisonOptions& op
              fitModel(btf, options.fit, model, folder, progress("fitting " + labelOf(model))));
     models.push_back(std::move(fitted));
   }
-  const bool withLaf =
-      std::ranges::any_of(options.models, [](const ModelDescription& m) { return m.name == "laf"; });
 
   HtmlReport report(fmt::format("{}: models compared", measured.name));
   const bool stored = options.fit.space == FitSpace::Stored;
@@ -210,7 +208,7 @@ Result<std::string> compareModels(const RawBtf& btf, const ComparisonOptions& op
   addCosts(report, btf, models);
   WEFT_TRY_VOID(addTexelFigure(report, btf, options.fit, models));
   WEFT_TRY_VOID(addClothPictures(report, btf, options.pictureSize, models));
-  WEFT_TRY(const std::vector<OneViewFit> views, addSingleViews(report, btf, withLaf));
+  WEFT_TRY(const std::vector<OneViewFit> views, addSingleViews(report, btf, models));
   WEFT_TRY_VOID(report.write(folder / "index.html"));
 
   Json json = {{"source", measured.name},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "TexelSamples.h"
@@ -81,16 +82,30 @@ ReferenceMaterial material(int width, int height) {
   return {width, height, glm::vec2(repetitions), {}};
 }
 
-ReferenceShot clothShot(int size) {
+/// From the left and somewhat above.
+constexpr glm::vec3 kSideLight{-0.55f, 0.45f, 0.7f};
+/// Almost along the cloth.
+constexpr glm::vec3 kLowLight{-0.5f, 0.85f, 0.3f};
+
+ReferenceShot clothShot(int size, glm::vec3 light) {
   ReferenceShot shot;
   shot.eye = {0.9f, -0.6f, 2.9f};
   shot.verticalFieldOfView = 0.68f;
-  shot.lights = {{ReferenceLight::Kind::Directional,
-                  {-0.55f, 0.45f, 0.7f},
-                  glm::vec3(1.3f * std::numbers::pi_v<float>)}};
+  shot.lights = {{ReferenceLight::Kind::Directional, light, glm::vec3(1.3f * std::numbers::pi_v<float>)}};
   shot.width = shot.height = size;
   shot.samples = 2;
   return shot;
+}
+
+/// The cloth of a RawBtf or a ReflectanceField.
+template <class Surface>
+FloatImage clothPicture(const ReferenceRenderer& renderer, const ReferenceShot& shot, const RawBtf& btf,
+                        const Surface& surface) {
+  ReferenceMaterial cloth = material(btf.description().width, btf.description().height);
+  cloth.value = [&](int x, int y, glm::vec3 light, glm::vec3 view) {
+    return surface.evaluate(x, y, light, view);
+  };
+  return renderer.render(shot, cloth);
 }
 
 /// The mean absolute difference of displayed RGB, 0..1, where there is cloth.
@@ -207,6 +222,26 @@ Result<std::vector<OneViewFit>> addSingleView(HtmlReport& report, const RawBtf& 
   return fits;
 }
 
+bool isAmong(std::span<const ComparedModel> models, std::string_view name) {
+  return std::ranges::any_of(
+      models, [&](const ComparedModel& m) { return m.fit.field.model().description().name == name; });
+}
+
+Result<void> addLowLightPictures(HtmlReport& report, const ReferenceRenderer& renderer, const RawBtf& btf,
+                                 int size, std::span<const ComparedModel> models) {
+  const ReferenceShot shot = clothShot(size, kLowLight);
+  WEFT_TRY(Image shown, displayImage(clothPicture(renderer, shot, btf, btf)));
+  std::vector<ReportPicture> pictures{{std::move(shown), "The measurement itself"}};
+  for (const ComparedModel& model : models) {
+    const std::string name = model.fit.field.model().description().name;
+    if (name != "rfnl" && name != "bump") continue;
+    WEFT_TRY(Image image, displayImage(clothPicture(renderer, shot, btf, model.fit.field)));
+    pictures.push_back({std::move(image), model.label});
+  }
+  report.paragraph("Under low light, beside a bump-mapped surface (the paper's figure 4):");
+  return report.pictures(pictures);
+}
+
 }  // namespace
 
 Result<void> addErrorMaps(HtmlReport& report, std::span<const ComparedModel> models) {
@@ -239,8 +274,7 @@ Result<void> addTexelFigure(HtmlReport& report, const RawBtf& btf, const FitOpti
   const int x = measured.width / 2, y = measured.height / 2;
   std::vector<NamedPairs> texels{
       {"measured", storedLuminance(texelSamples(btf.samples(), measured, y, x).stored)}};
-  if (std::ranges::any_of(
-          models, [](const ComparedModel& m) { return m.fit.field.model().description().name == "laf"; }))
+  if (isAmong(models, "laf"))
     for (const int lobes : {2, 10}) {
       FitOptions ofTexel = options;
       ofTexel.model = {.name = "laf", .lobes = lobes};
@@ -269,19 +303,12 @@ Result<void> addTexelFigure(HtmlReport& report, const RawBtf& btf, const FitOpti
 Result<void> addClothPictures(HtmlReport& report, const RawBtf& btf, int size,
                               std::span<ComparedModel> models) {
   WEFT_TRY(const ReferenceRenderer renderer, ReferenceRenderer::create(makeFoldedCloth()));
-  const ReferenceShot shot = clothShot(size);
-  const auto pictureOf = [&](const auto& surface) {
-    ReferenceMaterial cloth = material(btf.description().width, btf.description().height);
-    cloth.value = [&surface](int x, int y, glm::vec3 light, glm::vec3 view) {
-      return surface.evaluate(x, y, light, view);
-    };
-    return renderer.render(shot, cloth);
-  };
-  const FloatImage measured = pictureOf(btf);
+  const ReferenceShot shot = clothShot(size, kSideLight);
+  const FloatImage measured = clothPicture(renderer, shot, btf, btf);
   WEFT_TRY(Image shown, displayImage(measured));
   std::vector<ReportPicture> pictures{{std::move(shown), "The measurement itself, nine pairs interpolated"}};
   for (ComparedModel& model : models) {
-    const FloatImage picture = pictureOf(model.fit.field);
+    const FloatImage picture = clothPicture(renderer, shot, btf, model.fit.field);
     model.pictureDifference = displayedDifference(measured, picture);
     WEFT_TRY(Image image, displayImage(picture));
     pictures.push_back(
@@ -290,12 +317,13 @@ Result<void> addClothPictures(HtmlReport& report, const RawBtf& btf, int size,
   report.heading("On a cloth");
   report.paragraph(
       "A cloth with folds, ray-traced with shadows (the paper's figure 5). Differences are of displayed RGB, "
-      "0 to 1, between the "
-      "picture of the model and that of the measurement.");
-  return report.pictures(pictures);
+      "0 to 1, between the picture of the model and that of the measurement.");
+  WEFT_TRY_VOID(report.pictures(pictures));
+  return isAmong(models, "bump") ? addLowLightPictures(report, renderer, btf, size, models) : Result<void>{};
 }
 
-Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf& btf, bool withLaf) {
+Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf& btf,
+                                               std::span<const ComparedModel> models) {
   const std::vector<glm::vec3>& views = btf.description().views;
   report.heading("Single views");
   report.paragraph(
@@ -311,7 +339,8 @@ Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf&
     const std::size_t view = nearestDirection(views, directionFromDegrees(theta, 0.0));
     if (std::ranges::find(done, view) != done.end()) continue;
     done.push_back(view);
-    WEFT_TRY(const std::vector<OneViewFit> fits, addSingleView(report, btf, views[view], withLaf));
+    WEFT_TRY(const std::vector<OneViewFit> fits,
+             addSingleView(report, btf, views[view], isAmong(models, "laf")));
     all.insert(all.end(), fits.begin(), fits.end());
   }
   ReportTable table{

@@ -46,12 +46,14 @@ void addSizePlot(HtmlReport& report, const RawBtf& btf, std::span<const Compared
 Result<void> addTexelFigure(HtmlReport& report, const RawBtf& btf, const FitOptions& options,
                             std::span<const ComparedModel> models);
 
-/// A folded cloth with the measurement and with each model (paper M, fig. 5), and how far they are apart.
+/// A folded cloth with the measurement and with each model (paper M, fig. 5), and how far they are apart;
+/// where bump is among the models, also under low light beside reflectance fields (paper M, fig. 4).
 Result<void> addClothPictures(HtmlReport& report, const RawBtf& btf, int size,
                               std::span<ComparedModel> models);
 
 /// The measurement as a set of single views (paper B, table 2 and fig. 1): ptm, and laf where it is among the
 /// models, also fitted to lights that are interpolated.
-Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf& btf, bool withLaf);
+Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf& btf,
+                                               std::span<const ComparedModel> models);
 
 }  // namespace weft
