@@ -36,9 +36,9 @@ ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& 
       lights_(measured.lights),
       encoding_(measured.encoding),
       viewIsFitted_(amongOthers(measured.views, description.views)),
-      lightIsFitted_(amongOthers(measured.lights, description.lights)) {
-  const bool ofLights = formula_.model().layerDirections() == LayerDirections::Lights;
-  for (glm::vec3 direction : ofLights ? lights_ : views_)
+      lightIsFitted_(amongOthers(measured.lights, description.lights)),
+      layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
+  for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
     layers_.push_back(formula_.layersAround(direction, direction));
   const auto notAll = [](const std::vector<bool>& flags) {
     return std::ranges::find(flags, false) != flags.end();
@@ -46,23 +46,37 @@ ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& 
   holdsOut_ = notAll(viewIsFitted_) || notAll(lightIsFitted_);
 }
 
-glm::vec3 ErrorMeter::modelValue(std::span<const float> shared, std::span<const float> layers,
-                                 std::size_t view, std::size_t light) const {
-  if (formula_.layerCount() == 0) return formula_.evaluate(shared, {}, lights_[light], views_[view]);
-  const bool ofLights = formula_.model().layerDirections() == LayerDirections::Lights;
-  const DirectionWeights& around = layers_[ofLights ? light : view];
+// The layers' numbers and weights around a view, or light.
+template <class Function>
+void ErrorMeter::forEachLayer(std::size_t direction, std::span<const float> layers,
+                              const Function& function) const {
+  if (formula_.layerCount() == 0) return function(layers, 1.0f);
+  const DirectionWeights& around = layers_[direction];
   const std::size_t channels = layers.size() / static_cast<std::size_t>(formula_.layerCount());
-  glm::vec3 sum(0.0f);
   for (int k = 0; k < 3; ++k) {
     // Measured directions are layers themselves, but for rounding.
     if (around.weight[k] < 1e-4f) continue;
     const auto index = static_cast<std::size_t>(around.index[static_cast<std::size_t>(k)]);
-    const glm::vec3 value =
-        formula_.evaluate(shared, layers.subspan(index * channels, channels), lights_[light], views_[view]);
-    if (around.weight[k] > 0.9999f) return value;
-    sum += around.weight[k] * value;
+    function(layers.subspan(index * channels, channels),
+             around.weight[k] > 0.9999f ? 1.0f : around.weight[k]);
   }
-  return sum;
+}
+
+void ErrorMeter::evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
+                              std::span<glm::vec3> values) const {
+  std::ranges::fill(values, glm::vec3(0.0f));
+  if (layersAreLights_) {
+    for (std::size_t light = 0; light < lights_.size(); ++light)
+      forEachLayer(light, layers, [&](std::span<const float> layer, float weight) {
+        values[light] += weight * formula_.evaluate(shared, layer, lights_[light], views_[view]);
+      });
+    return;
+  }
+  std::vector<glm::vec3> ofLayer(lights_.size());
+  forEachLayer(view, layers, [&](std::span<const float> layer, float weight) {
+    formula_.evaluateLights(shared, layer, lights_, views_[view], ofLayer);
+    for (std::size_t light = 0; light < lights_.size(); ++light) values[light] += weight * ofLayer[light];
+  });
 }
 
 SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const float> layers,
@@ -73,8 +87,7 @@ SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const f
   std::vector<glm::vec3> model(lightCount);
   std::vector<glm::vec3> storedModel(lightCount);
   for (std::size_t view = 0; view < views_.size(); ++view) {
-    for (std::size_t light = 0; light < lightCount; ++light)
-      model[light] = modelValue(shared, layers, view, light);
+    evaluateView(shared, layers, view, model);
     storedModel = model;
     encodeAll(encoding_, floatsOf(storedModel));
     const auto addRun = [&](TexelErrors& to, std::size_t first, std::size_t count) {

@@ -76,7 +76,9 @@ void TexelErrors::add(const PairValues& data, const PairValues& model, bool isGr
     grazingPairs += data.linear.size();
   }
   float largest = 0.0f;
-  for (glm::vec3 value : data.linear) largest = std::max({largest, value.x, value.y, value.z});
+#pragma omp simd reduction(max : largest)
+  for (std::size_t i = 0; i < data.linear.size(); ++i)
+    largest = std::max(largest, std::max(std::max(data.linear[i].x, data.linear[i].y), data.linear[i].z));
   peak = std::max(peak, double{largest});
 }
 

@@ -14,15 +14,29 @@ float squaredWeight(float value) {
   return 1.0f / (std::max(value, 0.0f) + 0.01f);
 }
 
+// Sums of floats over runs of samples, which are then added up in double.
 template <class Weight>
 glm::vec3 baseColorOf(std::span<const glm::vec3> samples, const Weight& weight) {
+  constexpr std::size_t kRun = 256;
   glm::dvec3 weighted(0.0);
   double squares = 0.0;
-  for (glm::vec3 rgb : samples) {
-    const float y = luminance(rgb);
-    const float factor = weight(y) * y;
-    weighted += glm::dvec3(factor * rgb);
-    squares += double{factor * y};
+  for (std::size_t first = 0; first < samples.size(); first += kRun) {
+    const std::size_t end = std::min(first + kRun, samples.size());
+    float red = 0.0f;
+    float green = 0.0f;
+    float blue = 0.0f;
+    float square = 0.0f;
+#pragma omp simd reduction(+ : red, green, blue, square)
+    for (std::size_t i = first; i < end; ++i) {
+      const float y = luminance(samples[i]);
+      const float factor = weight(y) * y;
+      red += factor * samples[i].x;
+      green += factor * samples[i].y;
+      blue += factor * samples[i].z;
+      square += factor * y;
+    }
+    weighted += glm::dvec3(red, green, blue);
+    squares += double{square};
   }
   return squares > 0.0 ? glm::vec3(weighted / squares) : glm::vec3(1.0f);
 }
@@ -34,9 +48,9 @@ float displayWeight(float value) {
 }
 
 std::vector<float> displayWeights(std::span<const float> values) {
-  std::vector<float> weights;
-  weights.reserve(values.size());
-  for (float value : values) weights.push_back(displayWeight(value));
+  std::vector<float> weights(values.size());
+#pragma omp simd
+  for (std::size_t i = 0; i < values.size(); ++i) weights[i] = std::sqrt(squaredWeight(values[i]));
   return weights;
 }
 
@@ -52,9 +66,11 @@ FitTargets luminanceTargets(std::span<const glm::vec3> linear, std::span<const g
                             Encoding display, glm::vec3 baseColor) {
   const float baseDisplayed = luminance(encode(display, baseColor));
   FitTargets targets;
-  targets.values.reserve(linear.size());
-  for (glm::vec3 sample : displayed) targets.values.push_back(luminance(sample) / baseDisplayed);
+  targets.values.resize(linear.size());
+#pragma omp simd
+  for (std::size_t i = 0; i < linear.size(); ++i) targets.values[i] = luminance(displayed[i]) / baseDisplayed;
   decodeAll(display, targets.values);
+#pragma omp simd
   for (std::size_t i = 0; i < linear.size(); ++i)
     targets.values[i] = std::sqrt(std::max(luminance(linear[i]), 0.0f) * targets.values[i]);
   targets.weights = displayWeights(targets.values);

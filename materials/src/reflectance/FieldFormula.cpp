@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-
 namespace weft {
 namespace {
 
@@ -46,21 +45,35 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
   return formula;
 }
 
-glm::vec3 FieldFormula::modelValue(std::span<const float> shared, std::span<const float> layer,
-                                   glm::vec3 light, glm::vec3 view) const {
-  const glm::vec3 value = model_->evaluateColor(shared, layer, light, view);
-  return encoding_ == Encoding::Linear ? value : decode(encoding_, value);
+// Where the model is evaluated for a light above the horizon, and what its value is multiplied by.
+glm::vec3 FieldFormula::modelledLight(glm::vec3 light, float& factor) const {
+  factor = hasCosine_ ? 1.0f : light.z;
+  if (!hasCosine_ || light.z >= lowestLightZ_) return light;
+  factor = light.z / lowestLightZ_;
+  const glm::vec2 across(light);  // 0 where rounding lets the pole lie below a ring at the pole
+  const glm::vec2 azimuth = across / std::sqrt(std::max(glm::dot(across, across), 1e-30f));
+  return {azimuth * std::sqrt(1.0f - lowestLightZ_ * lowestLightZ_), lowestLightZ_};
 }
 
 glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                                  glm::vec3 view) const {
   if (light.z <= 0.0f) return glm::vec3(0.0f);
-  if (!hasCosine_) return light.z * modelValue(shared, layer, light, view);
-  if (light.z >= lowestLightZ_) return modelValue(shared, layer, light, view);
-  const glm::vec2 across(light);  // 0 where rounding lets the pole lie below a ring at the pole
-  const glm::vec2 azimuth = across / std::sqrt(std::max(glm::dot(across, across), 1e-30f));
-  const glm::vec3 onRing(azimuth * std::sqrt(1.0f - lowestLightZ_ * lowestLightZ_), lowestLightZ_);
-  return light.z / lowestLightZ_ * modelValue(shared, layer, onRing, view);
+  float factor = 0.0f;
+  const glm::vec3 modelled = modelledLight(light, factor);
+  const glm::vec3 value = model_->evaluateColor(shared, layer, modelled, view);
+  return factor * (encoding_ == Encoding::Linear ? value : decode(encoding_, value));
+}
+
+void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                                  std::span<const glm::vec3> lights, glm::vec3 view,
+                                  std::span<glm::vec3> values) const {
+  std::vector<glm::vec3> modelled(lights.size());
+  std::vector<float> factors(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].z > 0.0f) modelled[i] = modelledLight(lights[i], factors[i]);
+  model_->evaluateColors(shared, layer, modelled, view, values);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    values[i] = factors[i] * (encoding_ == Encoding::Linear ? values[i] : decode(encoding_, values[i]));
 }
 
 DirectionWeights FieldFormula::layersAround(glm::vec3 light, glm::vec3 view) const {

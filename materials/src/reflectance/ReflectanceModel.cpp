@@ -40,6 +40,31 @@ glm::vec3 ReflectanceModel::evaluateColor(std::span<const float> shared, std::sp
   return color * baseColor;
 }
 
+void ReflectanceModel::evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                                      std::span<const glm::vec3> lights, glm::vec3 view,
+                                      std::span<float> values) const {
+  for (std::size_t i = 0; i < lights.size(); ++i) values[i] = evaluate(shared, layer, lights[i], view);
+}
+
+void ReflectanceModel::evaluateColors(std::span<const float> shared, std::span<const float> layer,
+                                      std::span<const glm::vec3> lights, glm::vec3 view,
+                                      std::span<glm::vec3> colors) const {
+  const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
+  const auto channels = static_cast<std::size_t>(colorChannels());
+  const std::size_t sharedCount = (shared.size() - 3) / channels;
+  const std::size_t layerCount = layer.size() / channels;
+  std::vector<float> values(lights.size());
+  for (std::size_t c = 0; c < channels; ++c) {
+    evaluateLights(shared.subspan(3 + c * sharedCount, sharedCount),
+                   layer.subspan(c * layerCount, layerCount), lights, view, values);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      if (channels == 1)
+        colors[i] = values[i] * baseColor;
+      else
+        colors[i][static_cast<int>(c)] = values[i] * baseColor[static_cast<int>(c)];
+  }
+}
+
 int sharedTexels(const ReflectanceModel& model) {
   return (3 + static_cast<int>(model.sharedNumbers().size()) + 3) / 4;
 }

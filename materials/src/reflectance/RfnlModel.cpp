@@ -17,9 +17,10 @@ Result<std::shared_ptr<const ReflectanceModel>> RfnlModel::create(const ModelDes
   return std::make_shared<const RfnlModel>(description);
 }
 
-LayerDirections RfnlModel::layerDirections() const {
-  return description().name == "lfnl" ? LayerDirections::Lights : LayerDirections::Views;
-}
+RfnlModel::RfnlModel(ModelDescription description)
+    : ReflectanceModel(std::move(description)),
+      layerDirections_(this->description().name == "lfnl" ? LayerDirections::Lights
+                                                          : LayerDirections::Views) {}
 
 std::vector<std::string> RfnlModel::sharedNumbers() const {
   if (ownDiffuseAlbedo()) return {};
@@ -37,15 +38,24 @@ std::vector<std::string> RfnlModel::layerNumbers() const {
 
 float RfnlModel::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                           glm::vec3 view) const {
-  const glm::vec3 varied = variedDirection(light, view);
-  float value = ownDiffuseAlbedo() ? layer.back() : shared[0];
+  float value = 0.0f;
+  evaluateLights(shared, layer, {&light, 1}, view, {&value, 1});
+  return value;
+}
+
+void RfnlModel::evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                               std::span<const glm::vec3> lights, glm::vec3 view,
+                               std::span<float> values) const {
+  std::ranges::fill(values, diffuseAlbedoOf(shared, layer));
   for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
     const auto lobe = layer.subspan(4 * j, 4);
     const glm::vec3 direction = directionFromParabolic({lobe[1], lobe[2]});
-    const float cosine = glm::dot(direction, varied);
-    if (cosine > 0.0f) value += lobe[0] * std::pow(cosine, lobe[3]);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const float cosine = glm::dot(direction, variedDirection(lights[i], view));
+      if (cosine > 0.0f) values[i] += lobe[0] * std::pow(cosine, lobe[3]);
+    }
   }
-  return std::max(value, 0.0f);
+  for (float& value : values) value = std::max(value, 0.0f);
 }
 
 std::map<std::string, std::string> RfnlModel::shaderDefines() const {

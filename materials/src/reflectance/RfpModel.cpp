@@ -3,14 +3,23 @@
 #include <algorithm>
 
 namespace weft {
+namespace {
+
+float polynomial(std::span<const float> a, glm::vec3 d) {
+  return std::max(a[0] * d.x * d.x + a[1] * d.y * d.y + a[2] * d.x * d.y + a[3] * d.x + a[4] * d.y + a[5],
+                  0.0f);
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const ReflectanceModel>> RfpModel::create(const ModelDescription& description) {
   return std::make_shared<const RfpModel>(
       ModelDescription{description.name, 0, DiffuseAlbedo::Shared, description.color});
 }
 
-LayerDirections RfpModel::layerDirections() const {
-  return description().name == "lfp" ? LayerDirections::Lights : LayerDirections::Views;
+RfpModel::RfpModel(ModelDescription description)
+    : ReflectanceModel(std::move(description)),
+      layerDirections_(this->description().name == "lfp" ? LayerDirections::Lights : LayerDirections::Views) {
 }
 
 std::vector<std::string> RfpModel::layerNumbers() const {
@@ -19,9 +28,13 @@ std::vector<std::string> RfpModel::layerNumbers() const {
 
 float RfpModel::evaluate(std::span<const float>, std::span<const float> a, glm::vec3 light,
                          glm::vec3 view) const {
-  const glm::vec3 d = variedDirection(light, view);
-  return std::max(a[0] * d.x * d.x + a[1] * d.y * d.y + a[2] * d.x * d.y + a[3] * d.x + a[4] * d.y + a[5],
-                  0.0f);
+  return polynomial(a, variedDirection(light, view));
+}
+
+void RfpModel::evaluateLights(std::span<const float>, std::span<const float> a,
+                              std::span<const glm::vec3> lights, glm::vec3 view,
+                              std::span<float> values) const {
+  for (std::size_t i = 0; i < lights.size(); ++i) values[i] = polynomial(a, variedDirection(lights[i], view));
 }
 
 }  // namespace weft

@@ -38,8 +38,10 @@ class ErrorMeter {
                       std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const;
 
  private:
-  glm::vec3 modelValue(std::span<const float> shared, std::span<const float> layers, std::size_t view,
-                       std::size_t light) const;
+  template <class Function>
+  void forEachLayer(std::size_t direction, std::span<const float> layers, const Function& function) const;
+  void evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
+                    std::span<glm::vec3> values) const;
 
   FieldFormula formula_;
   std::vector<glm::vec3> views_;
@@ -47,6 +49,7 @@ class ErrorMeter {
   Encoding encoding_;
   std::vector<bool> viewIsFitted_;
   std::vector<bool> lightIsFitted_;
+  bool layersAreLights_ = false;
   std::vector<DirectionWeights> layers_;  ///< around each view, or light, of the measurement
   bool holdsOut_ = false;
 };

@@ -49,12 +49,14 @@ class FieldFormula {
   /// still ends at the terminator.
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
+  /// The same for many lights and one view.
+  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                      std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> values) const;
   /// The layers to interpolate, and their weights.
   DirectionWeights layersAround(glm::vec3 light, glm::vec3 view) const;
 
  private:
-  glm::vec3 modelValue(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
-                       glm::vec3 view) const;
+  glm::vec3 modelledLight(glm::vec3 light, float& factor) const;
 
   std::shared_ptr<const ReflectanceModel> model_;
   HemisphereTriangulation triangulation_;

@@ -56,6 +56,10 @@ class ReflectanceModel {
   /// (models.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the lists of names.
   virtual float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                          glm::vec3 view) const = 0;
+  /// evaluate() for many lights and one view, into `values`; models override it where a loop is faster.
+  virtual void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                              std::span<const glm::vec3> lights, glm::vec3 view,
+                              std::span<float> values) const;
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
   virtual std::map<std::string, std::string> shaderDefines() const { return {}; }
@@ -70,6 +74,9 @@ class ReflectanceModel {
   /// evaluate() for every colour channel, times the base colour. Spans are as long as the lists of channels.
   glm::vec3 evaluateColor(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                           glm::vec3 view) const;
+  /// The same for many lights and one view.
+  void evaluateColors(std::span<const float> shared, std::span<const float> layer,
+                      std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> colors) const;
 
  protected:
   /// The direction that varies within a layer.

@@ -18,18 +18,26 @@ class RfnlModel : public ReflectanceModel {
 
   /// 1 to kMaximumLobes lobes.
   static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
-  using ReflectanceModel::ReflectanceModel;
+  explicit RfnlModel(ModelDescription description);
 
-  LayerDirections layerDirections() const override;
+  LayerDirections layerDirections() const override { return layerDirections_; }
   std::vector<std::string> sharedNumbers() const override;
   std::vector<std::string> layerNumbers() const override;
   float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                  glm::vec3 view) const override;
+  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                      std::span<const glm::vec3> lights, glm::vec3 view,
+                      std::span<float> values) const override;
   std::string shaderFile() const override { return "rfnl.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
  private:
+  float diffuseAlbedoOf(std::span<const float> shared, std::span<const float> layer) const {
+    return ownDiffuseAlbedo() ? layer.back() : shared[0];
+  }
   bool ownDiffuseAlbedo() const { return description().diffuseAlbedo == DiffuseAlbedo::PerView; }
+
+  LayerDirections layerDirections_;
 };
 
 }  // namespace weft

@@ -12,13 +12,19 @@ namespace weft {
 class RfpModel : public ReflectanceModel {
  public:
   static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
-  using ReflectanceModel::ReflectanceModel;
+  explicit RfpModel(ModelDescription description);
 
-  LayerDirections layerDirections() const override;
+  LayerDirections layerDirections() const override { return layerDirections_; }
   std::vector<std::string> layerNumbers() const override;
   float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                  glm::vec3 view) const override;
+  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                      std::span<const glm::vec3> lights, glm::vec3 view,
+                      std::span<float> values) const override;
   std::string shaderFile() const override { return "rfp.glsl"; }
+
+ private:
+  LayerDirections layerDirections_;
 };
 
 }  // namespace weft
