@@ -9,6 +9,7 @@
 layout(std140, binding = 2) uniform ReflectanceField {
   vec2 textureScale;   // repetitions per unit of texture coordinates
   float lowestLightZ;  // of the measured lights; where a field that contains n.l ends
+  float lowestViewZ;   // of the measured views; models see no lower ones
 };
 
 in vec3 position;
@@ -39,6 +40,14 @@ Layer fetchLayer(ivec2 place, int index) {
   return layer;
 }
 
+// The direction, or the one at its azimuth on the ring at height z where it lies below that.
+vec3 notBelow(vec3 direction, float z) {
+  if (direction.z >= z) return direction;
+  // 0 where rounding lets the pole lie below a ring at the pole.
+  vec2 azimuth = direction.xy * inversesqrt(max(dot(direction.xy, direction.xy), 1e-30));
+  return vec3(azimuth * sqrt(1.0 - z * z), z);
+}
+
 // Linear RGB, with or without n.l as it was fitted.
 vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
   vec3 value;
@@ -50,12 +59,8 @@ vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
 // The value, n.l included, for light from `light` above the horizon (FieldFormula.h: evaluate).
 vec3 valueWithCosine(Texel texel, Layer layer, vec3 light, vec3 view) {
 #ifdef MODEL_HAS_COSINE
-  if (light.z < lowestLightZ) {
-    // 0 where rounding lets the pole lie below a ring at the pole.
-    vec2 azimuth = light.xy * inversesqrt(max(dot(light.xy, light.xy), 1e-30));
-    vec3 onRing = vec3(azimuth * sqrt(1.0 - lowestLightZ * lowestLightZ), lowestLightZ);
-    return light.z / lowestLightZ * modelValue(texel, layer, onRing, view);
-  }
+  if (light.z < lowestLightZ)
+    return light.z / lowestLightZ * modelValue(texel, layer, notBelow(light, lowestLightZ), view);
   return modelValue(texel, layer, light, view);
 #else
   return light.z * modelValue(texel, layer, light, view);
@@ -65,6 +70,7 @@ vec3 valueWithCosine(Texel texel, Layer layer, vec3 light, vec3 view) {
 // The radiance towards the eye that one texel would give here.
 vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
   Texel texel = fetchTexel(place);
+  vec3 seenFrom = notBelow(view, lowestViewZ);
   vec3 radiance = vec3(0.0);
 #ifdef LAYERS_ARE_LIGHTS
   for (int i = 0; i < lightCount; ++i) {
@@ -75,7 +81,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
     LayerWeights layers = findLayers(l);
     for (int k = 0; k < 3; ++k)
       if (layers.weight[k] > 0.0)
-        radiance += layers.weight[k] * irradiance * valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, view);
+        radiance += layers.weight[k] * irradiance * valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
   }
 #else
   LayerWeights layers = findLayers(view);
@@ -86,7 +92,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
       vec3 toLight;
       vec3 irradiance = lightAt(i, position, toLight);
       vec3 l = toFrame(frame, toLight);
-      if (l.z > 0.0) radiance += layers.weight[k] * irradiance * valueWithCosine(texel, layer, l, view);
+      if (l.z > 0.0) radiance += layers.weight[k] * irradiance * valueWithCosine(texel, layer, l, seenFrom);
     }
   }
 #endif

@@ -41,7 +41,8 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
       ->check(CLI::IsMember(ModelRegistry::builtin().names()))
       ->capture_default_str();
-  app.add_option("--lobes", a.fit.model.lobes, "lobes of the models that have lobes: rfnl and lfnl 1 to 4")
+  app.add_option("--lobes", a.fit.model.lobes,
+                 "lobes of the models that have lobes: rfnl and lfnl 1 to 4, laf and slaf 1 to 10")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
   app.add_option("--color", a.color,

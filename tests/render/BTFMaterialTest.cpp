@@ -153,10 +153,13 @@ TEST_P(GpuAgainstCpu, AgreeOnTheFittedWool) {
 INSTANTIATE_TEST_SUITE_P(
     Models, GpuAgainstCpu,
     testing::Values(ModelDescription{.name = "rfp"}, ModelDescription{.name = "rfnl", .lobes = 2},
-                    ModelDescription{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}),
+                    ModelDescription{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView},
+                    ModelDescription{.name = "laf", .lobes = 4}, ModelDescription{.name = "slaf", .lobes = 3},
+                    ModelDescription{.name = "laf", .lobes = 1, .color = FitColor::Rgb}),
     [](const auto& test) {
       return test.param.name + std::to_string(test.param.lobes) +
-             (test.param.diffuseAlbedo == DiffuseAlbedo::Shared ? "" : "OwnDiffuse");
+             (test.param.diffuseAlbedo == DiffuseAlbedo::Shared ? "" : "OwnDiffuse") +
+             (test.param.color == FitColor::Luminance ? "" : "Rgb");
     });
 
 // A field whose every number is different, so that a mix-up of texels, views or channels shows.

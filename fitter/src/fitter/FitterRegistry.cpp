@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "LafFitter.h"
 #include "RfnlFitter.h"
 #include "RfpFitter.h"
 #include "weft/fitter/TexelFitter.h"
@@ -13,6 +14,8 @@ FitterRegistry FitterRegistry::builtin() {
   registry.add("lfp", RfpFitter::createForLights);
   registry.add("lfnl", RfnlFitter::createForLights);
   registry.add("ptm", RfpFitter::createForOneView);
+  registry.add("laf", LafFitter::create);
+  registry.add("slaf", LafFitter::create);
   return registry;
 }
 

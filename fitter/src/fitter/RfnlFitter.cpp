@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "ExchangedFitter.h"
+#include "LightSpacing.h"
 #include "weft/core/Direction.h"
 
 namespace weft {
@@ -275,16 +276,11 @@ RfnlFitter::RfnlFitter(const FitProblem& problem)
       ownDiffuseAlbedo_(problem.model->description().diffuseAlbedo == DiffuseAlbedo::PerView),
       modelHasCosine_(problem.cosineInModel) {
   problem_.lights = problem.lights;
-  float largestGap = 0.0f;
+  problem_.largestExponent = sharpestExponent(problem.lights);
   for (const glm::vec3 light : problem.lights) {
     problem_.cosines.push_back(problem.cosineInModel ? 1.0f : light.z);
     neighbors_.push_back(nearestLights(light, problem.lights));
-    const glm::vec3 nearest = problem.lights[static_cast<std::size_t>(neighbors_.back().front())];
-    largestGap = std::max(largestGap, std::acos(std::clamp(glm::dot(light, nearest), -1.0f, 1.0f)));
   }
-  // A sharper lobe could hide between two lights: half of the gap must not take it below one half.
-  problem_.largestExponent =
-      std::clamp(std::log(0.5f) / std::log(std::cos(0.5f * largestGap)), 2.0f, 1000.0f);
 }
 
 void RfnlFitter::fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,

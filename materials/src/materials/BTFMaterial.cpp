@@ -20,7 +20,7 @@ constexpr int kMaximumLayers = 2048;
 struct FieldBlock {
   glm::vec2 textureScale;
   float lowestLightZ;
-  float padding = 0.0f;
+  float lowestViewZ;
 };
 
 // Channels `first`.. of a layer of `from`, four a texel, into layers `layer`.. of `to`.
@@ -126,8 +126,10 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
   if (layers > 0) setLayerChunks(*material, *field);
   material->setChunk(textureSlot(1), std::make_shared<TextureChunk>(
                                          packedShared(*field), TextureOptions{.shape = TextureShape::Array}));
-  material->setChunk(uniformSlot(2), std::make_shared<UniformBlockChunk>(blockBytes(
-                                         FieldBlock{options.textureScale, field->formula().lowestLightZ()})));
+  material->setChunk(
+      uniformSlot(2),
+      std::make_shared<UniformBlockChunk>(blockBytes(FieldBlock{
+          options.textureScale, field->formula().lowestLightZ(), field->formula().lowestViewZ()})));
   if (options.doubleSided) material->setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
   return material;
 }

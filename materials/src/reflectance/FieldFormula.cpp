@@ -15,12 +15,20 @@ Result<void> checkDirections(const std::vector<glm::vec3>& directions, const std
   return {};
 }
 
-// Of the lights above the horizon; 0 where there are none.
-float lowestZ(const std::vector<glm::vec3>& lights) {
+// Of the directions above the horizon; 0 where there are none.
+float lowestZ(const std::vector<glm::vec3>& directions) {
   float lowest = 0.0f;
-  for (glm::vec3 light : lights)
-    if (light.z > 0.0f && (lowest == 0.0f || light.z < lowest)) lowest = light.z;
+  for (glm::vec3 direction : directions)
+    if (direction.z > 0.0f && (lowest == 0.0f || direction.z < lowest)) lowest = direction.z;
   return std::min(lowest, 1.0f);  // of unit length but for rounding
+}
+
+// The direction, or the one at its azimuth on the ring at height z where it lies below that.
+glm::vec3 notBelow(glm::vec3 direction, float z) {
+  if (direction.z >= z) return direction;
+  const glm::vec2 across(direction);  // 0 where rounding lets the pole lie below a ring at the pole
+  const glm::vec2 azimuth = across / std::sqrt(std::max(glm::dot(across, across), 1e-30f));
+  return {azimuth * std::sqrt(1.0f - z * z), z};
 }
 
 }  // namespace
@@ -31,6 +39,7 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
   WEFT_TRY_VOID(checkDirections(description.lights, "light"));
   FieldFormula formula;
   formula.lowestLightZ_ = lowestZ(description.lights);
+  formula.lowestViewZ_ = lowestZ(description.views);
   if (description.hasCosine && formula.lowestLightZ_ <= 0.0f)
     return fail("a field that contains n.l has no light above the horizon");
   const LayerDirections kind = model->layerDirections();
@@ -50,9 +59,7 @@ glm::vec3 FieldFormula::modelledLight(glm::vec3 light, float& factor) const {
   factor = hasCosine_ ? 1.0f : light.z;
   if (!hasCosine_ || light.z >= lowestLightZ_) return light;
   factor = light.z / lowestLightZ_;
-  const glm::vec2 across(light);  // 0 where rounding lets the pole lie below a ring at the pole
-  const glm::vec2 azimuth = across / std::sqrt(std::max(glm::dot(across, across), 1e-30f));
-  return {azimuth * std::sqrt(1.0f - lowestLightZ_ * lowestLightZ_), lowestLightZ_};
+  return notBelow(light, lowestLightZ_);
 }
 
 glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
@@ -60,7 +67,7 @@ glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const 
   if (light.z <= 0.0f) return glm::vec3(0.0f);
   float factor = 0.0f;
   const glm::vec3 modelled = modelledLight(light, factor);
-  const glm::vec3 value = model_->evaluateColor(shared, layer, modelled, view);
+  const glm::vec3 value = model_->evaluateColor(shared, layer, modelled, notBelow(view, lowestViewZ_));
   return factor * (encoding_ == Encoding::Linear ? value : decode(encoding_, value));
 }
 
@@ -71,7 +78,7 @@ void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const
   std::vector<float> factors(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i)
     if (lights[i].z > 0.0f) modelled[i] = modelledLight(lights[i], factors[i]);
-  model_->evaluateColors(shared, layer, modelled, view, values);
+  model_->evaluateColors(shared, layer, modelled, notBelow(view, lowestViewZ_), values);
   for (std::size_t i = 0; i < lights.size(); ++i)
     values[i] = factors[i] * (encoding_ == Encoding::Linear ? values[i] : decode(encoding_, values[i]));
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "weft/reflectance/LafModel.h"
 #include "weft/reflectance/ReflectanceModel.h"
 #include "weft/reflectance/RfnlModel.h"
 #include "weft/reflectance/RfpModel.h"
@@ -14,6 +15,8 @@ ModelRegistry ModelRegistry::builtin() {
   registry.add("lfp", RfpModel::create);
   registry.add("lfnl", RfnlModel::create);
   registry.add("ptm", RfpModel::create);
+  registry.add("laf", LafModel::create);
+  registry.add("slaf", LafModel::create);
   return registry;
 }
 

@@ -41,12 +41,15 @@ class FieldFormula {
   const HemisphereTriangulation& triangulation() const { return triangulation_; }
   /// The z of the outermost measured lights above the horizon: where a model that has the cosine ends.
   float lowestLightZ() const { return lowestLightZ_; }
+  /// The z of the outermost measured views: below them, models are shown the view on their ring.
+  float lowestViewZ() const { return lowestViewZ_; }
 
   /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.
   ///
   /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured ring are
   /// evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never extrapolated and
-  /// still ends at the terminator.
+  /// still ends at the terminator. Models see a view below the outermost measured ring as on it, at its own
+  /// azimuth.
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
   /// The same for many lights and one view.
@@ -64,6 +67,7 @@ class FieldFormula {
   bool hasCosine_ = false;
   Encoding encoding_ = Encoding::Linear;
   float lowestLightZ_ = 0.0f;
+  float lowestViewZ_ = 0.0f;
 };
 
 }  // namespace weft

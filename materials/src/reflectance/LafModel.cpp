@@ -1,0 +1,60 @@
+#include "weft/reflectance/LafModel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace weft {
+
+Result<std::shared_ptr<const ReflectanceModel>> LafModel::create(const ModelDescription& description) {
+  if (description.lobes < 1 || description.lobes > kMaximumLobes)
+    return fail(fmt::format("{} cannot have {} lobes", description.name, description.lobes), {},
+                fmt::format("1 to {}", kMaximumLobes));
+  return std::make_shared<const LafModel>(description);
+}
+
+LayerDirections LafModel::layerDirections() const {
+  return hasViewFactor() ? LayerDirections::Views : LayerDirections::None;
+}
+
+std::vector<std::string> LafModel::sharedNumbers() const {
+  std::vector<std::string> names{"rho_d"};
+  for (int j = 0; j < description().lobes; ++j)
+    for (const char* part : {"amplitude", "p", "q", "exponent"})
+      names.push_back(fmt::format("lobe{}.{}", j, part));
+  return names;
+}
+
+std::vector<std::string> LafModel::layerNumbers() const {
+  if (hasViewFactor()) return {"view_factor"};
+  return {};
+}
+
+float LafModel::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
+                         glm::vec3 view) const {
+  float value = shared[0];
+  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+    const auto lobe = shared.subspan(1 + 4 * j, 4);
+    const float base = glm::dot(lafAxes({lobe[1], lobe[2]}), light * view);
+    if (base > 0.0f) value += lobe[0] * std::pow(base, lobe[3]);
+  }
+  if (hasViewFactor()) value *= layer[0];
+  return std::max(value, 0.0f);
+}
+
+std::map<std::string, std::string> LafModel::shaderDefines() const {
+  return {{"LOBES", std::to_string(description().lobes)}, {"VIEW_FACTOR", hasViewFactor() ? "1" : "0"}};
+}
+
+glm::vec3 lafAxes(glm::vec2 packed) {
+  const float s = std::max({1.0f, std::abs(packed.x), std::abs(packed.y)});
+  return {packed.x / s, packed.y / s, 2.0f - s};
+}
+
+glm::vec2 packedLafAxes(glm::vec3 axes) {
+  return glm::vec2(axes) * (2.0f - axes.z);
+}
+
+}  // namespace weft
