@@ -141,18 +141,22 @@ bool fits(GLContext& context, TextureShape shape, const Texels& texels) {
   return false;
 }
 
+GLint wrapMode(TextureWrap wrap) {
+  if (wrap == TextureWrap::Clamp) return GL_CLAMP_TO_EDGE;
+  return wrap == TextureWrap::Repeat ? GL_REPEAT : GL_MIRRORED_REPEAT;
+}
+
 void setSampling(GLuint texture, const TextureOptions& options) {
   const bool nearest = options.filter == TextureFilter::Nearest;
-  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+  const bool nearestAbove = options.magnification.value_or(options.filter) == TextureFilter::Nearest;
+  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, nearestAbove ? GL_NEAREST : GL_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
                       options.filter == TextureFilter::Mipmapped ? GL_LINEAR_MIPMAP_LINEAR
                       : nearest                                  ? GL_NEAREST
                                                                  : GL_LINEAR);
-  const GLint wrap = options.wrap == TextureWrap::Clamp    ? GL_CLAMP_TO_EDGE
-                     : options.wrap == TextureWrap::Repeat ? GL_REPEAT
-                                                           : GL_MIRRORED_REPEAT;
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(texture, axis, wrap);
+    glTextureParameteri(texture, axis, wrapMode(options.wrap));
+  if (options.wrapV) glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrapMode(*options.wrapV));
 }
 
 GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options) {
@@ -199,9 +203,10 @@ void TextureChunk::setImage(std::shared_ptr<const Image> image) {
 }
 
 void TextureChunk::replaceImage(AnyImage image) {
-  WEFT_EXPECT(options_.shape != TextureShape::Rectangle ||
-                  (options_.wrap == TextureWrap::Clamp && options_.filter != TextureFilter::Mipmapped),
-              "a rectangle texture has no repeat and no mipmaps");
+  WEFT_EXPECT(
+      options_.shape != TextureShape::Rectangle || (options_.wrap == TextureWrap::Clamp && !options_.wrapV &&
+                                                    options_.filter != TextureFilter::Mipmapped),
+      "a rectangle texture has no repeat and no mipmaps");
   std::visit(
       [this](const auto& held) {
         if (held && !isEmpty(*held)) expectFits(options_, *held);

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -7,6 +7,7 @@
 #include "TestField.h"
 #include "TestSupport.h"
 #include "weft/core/ImageComparison.h"
+#include "weft/io/ImageFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/scene_io/GltfLoader.h"
 #include "weft/scenegraph/Light.h"
@@ -68,6 +69,40 @@ TEST_F(GltfRender, RepeatsTheMaterialAsTheExtensionSays) {
   const FloatImage picture = pictureOfFile(test::planeGltf(btfMaterial(R"(,"scale":[3,2])")));
   EXPECT_EQ(compareImages(picture, pictureOfPlane({3, 2})).maximum, 0.0f);
   EXPECT_GT(compareImages(picture, pictureOfPlane({1, 1})).maximum, 0.1f);
+}
+
+TEST_F(GltfRender, SamplesTexturesAsTheirSamplerSays) {
+  // Black and white halves of 2 x 2 texels, left and right, seen over u, v = -0.5..1.5.
+  Image halves(2, 2, 3);
+  for (int y = 0; y < 2; ++y)
+    for (int channel = 0; channel < 3; ++channel) halves.pixel(1, y)[channel] = 255;
+  test::requireDone(writePng(folder / "halves.png", halves));
+  const auto valuesAlongU = [&](const std::string& sampler) {
+    test::writeText(
+        folder / "scene.gltf",
+        test::planeGltf(
+            R"({"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorTexture":)"
+            R"({"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2],"offset":[-0.5,-0.5]}}}}}],)"
+            R"("textures":[{"source":0,"sampler":0}],"images":[{"uri":"halves.png"}],"samplers":[)" +
+            sampler));
+    const GltfScene scene = test::valueOf(loadGltf(folder / "scene.gltf"));
+    Camera camera = test::squareCamera();
+    camera.verticalFieldOfView = 2.0f * std::atan(0.25f);
+    const RenderTarget target(kSize, kSize, Precision::Float);
+    test::requireDone(renderer.render(context(), *scene.root, camera, target));
+    const FloatImage image = target.read(context());
+    // At u = -0.375, 0.125, 0.4, 0.875, 1.375.
+    std::vector<float> values;
+    for (const int x : {2, 10, 14, 22, 29}) values.push_back(image.at(x, 3, 0));
+    return values;
+  };
+  using testing::ElementsAre;
+  const auto grey = testing::AllOf(testing::Gt(0.1f), testing::Lt(0.5f));
+  EXPECT_THAT(valuesAlongU(R"({"magFilter":9728})"), ElementsAre(1, 0, 0, 1, 0));
+  EXPECT_THAT(valuesAlongU(R"({"magFilter":9728,"wrapS":33071})"), ElementsAre(0, 0, 0, 1, 1));
+  EXPECT_THAT(valuesAlongU(R"({"magFilter":9728,"wrapS":33648})"), ElementsAre(0, 0, 0, 1, 1));
+  EXPECT_THAT(valuesAlongU(R"({"magFilter":9728,"wrapT":33071})"), ElementsAre(1, 0, 0, 1, 0));
+  EXPECT_THAT(valuesAlongU(R"({"magFilter":9729,"wrapS":33071})"), ElementsAre(0, 0, grey, 1, 1));
 }
 
 TEST_F(GltfRender, ShowsTheSameThroughANodeThatMirrorsAMirroredMesh) {

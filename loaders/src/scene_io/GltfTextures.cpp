@@ -10,12 +10,18 @@ TextureWrap wrapOf(int wrap) {
   return wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::Mirror : TextureWrap::Repeat;
 }
 
-/// glTF leaves the filters to the program where the file names none.
-TextureFilter filterOf(const tinygltf::Sampler& sampler) {
-  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) return TextureFilter::Nearest;
-  const bool withoutMipmaps = sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR ||
-                              sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-  return withoutMipmaps ? TextureFilter::Linear : TextureFilter::Mipmapped;
+/// glTF leaves the filters to the program where the file names none; of the four kinds of mipmaps Weft has
+/// the best.
+TextureOptions optionsOf(const tinygltf::Sampler& sampler, bool srgb) {
+  TextureOptions options{.filter = TextureFilter::Mipmapped,
+                         .wrap = wrapOf(sampler.wrapS),
+                         .wrapV = wrapOf(sampler.wrapT),
+                         .srgb = srgb};
+  if (sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) options.filter = TextureFilter::Nearest;
+  if (sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR) options.filter = TextureFilter::Linear;
+  options.magnification =
+      sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? TextureFilter::Nearest : TextureFilter::Linear;
+  return options;
 }
 
 }  // namespace
@@ -33,10 +39,7 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool sr
   }
   WEFT_TRY(std::shared_ptr<const Image> pixels, image(texture.source, use));
   std::shared_ptr<const TextureChunk> chunk;
-  if (pixels)
-    chunk = std::make_shared<const TextureChunk>(
-        std::move(pixels),
-        TextureOptions{.filter = filterOf(sampler), .wrap = wrapOf(sampler.wrapS), .srgb = srgb});
+  if (pixels) chunk = std::make_shared<const TextureChunk>(std::move(pixels), optionsOf(sampler, srgb));
   return chunks_[{index, srgb}] = std::move(chunk);
 }
 

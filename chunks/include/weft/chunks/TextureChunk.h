@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "weft/chunks/Chunk.h"
@@ -27,6 +28,8 @@ struct TextureOptions {
   TextureShape shape = TextureShape::Flat;
   TextureFilter filter = TextureFilter::Nearest;  ///< parameters must not be blended unasked
   TextureWrap wrap = TextureWrap::Clamp;          ///< the only one that every shape has
+  std::optional<TextureWrap> wrapV{};             ///< along v, where that is another
+  std::optional<TextureFilter> magnification{};  ///< Nearest or Linear, where `filter` is for reduction alone
   bool srgb = false;  ///< 8-bit images only: the values are sRGB, sampling gives linear ones
 
   bool operator==(const TextureOptions&) const = default;
