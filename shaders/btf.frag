@@ -101,7 +101,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame) {
 
 void main() {
   TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
-  vec3 view = toFrame(frame, normalize(eye.xyz - position));
+  vec3 view = toFrame(frame, toEye(position));
   ivec2 size = textureSize(sharedNumbers, 0).xy;
   vec2 place = fract(texcoord * textureScale) * vec2(size);
 #ifdef BILINEAR

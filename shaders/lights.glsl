@@ -17,9 +17,14 @@ struct Light {
 
 layout(std140, binding = 0) uniform Frame {
   mat4 viewProjection;
-  vec4 eye;  // xyz: world space
+  vec4 eye;  // Camera::eye(), world space
   Light lights[maximumLights];
 };
+
+// The unit direction from a world-space point towards the eye.
+vec3 toEye(vec3 point) {
+  return normalize(eye.xyz - eye.w * point);
+}
 
 // Irradiance, on a surface that faces the light, at a world-space point; `toLight` becomes the unit direction towards it.
 vec3 lightAt(int index, vec3 point, out vec3 toLight) {

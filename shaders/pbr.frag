@@ -118,7 +118,7 @@ vec3 reflectance(Surface surface, vec3 n, vec3 v, vec3 l, float nl) {
 
 vec3 lit(vec3 base) {
   Surface surface = surfaceOf(base);
-  vec3 n = surfaceNormal(), v = normalize(eye.xyz - position);
+  vec3 n = surfaceNormal(), v = toEye(position);
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < lightCount; ++i) {
     vec3 l;

@@ -103,7 +103,7 @@ Result<FrameNumbers> frameNumbers(const FlatScene& scene, const Camera& camera,
   if (count > kMaximumLights)
     return fail(fmt::format("the scene has {} lights, at most {} can be drawn", count, kMaximumLights));
 
-  FrameNumbers numbers{{viewProjection, glm::vec4(camera.position(), 1.0f), {}},
+  FrameNumbers numbers{{viewProjection, camera.eye(), {}},
                        static_cast<int>(directional.size()),
                        static_cast<int>(placed.size())};
   std::copy(placed.begin(), placed.end(),

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 #include <sstream>
@@ -247,9 +248,21 @@ TEST(GltfLoader, ReadsLights) {
   ASSERT_TRUE(firstOf<DirectionalLight>(*sun.root));
   EXPECT_EQ(firstOf<DirectionalLight>(*sun.root)->irradiance, glm::vec3(3));
 
-  const GltfScene spot = loaded(withLight(R"({"type":"spot","name":"desk","spot":{}})"));
-  EXPECT_EQ(spot.lights, 0);
-  EXPECT_THAT(spot.warnings, ElementsAre(HasSubstr("desk")));
+  const GltfScene near = loaded(withLight(R"({"type":"point","range":7.5})"));
+  EXPECT_EQ(firstOf<PointLight>(*near.root)->range, 7.5f);
+
+  const GltfScene spot = loaded(withLight(
+      R"({"type":"spot","intensity":2,"range":9,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}})"));
+  ASSERT_TRUE(firstOf<SpotLight>(*spot.root));
+  EXPECT_EQ(firstOf<SpotLight>(*spot.root)->intensity, glm::vec3(2));
+  EXPECT_EQ(firstOf<SpotLight>(*spot.root)->innerAngle, 0.25f);
+  EXPECT_EQ(firstOf<SpotLight>(*spot.root)->outerAngle, 0.5f);
+  EXPECT_EQ(firstOf<SpotLight>(*spot.root)->range, 9.0f);
+  EXPECT_FLOAT_EQ(firstOf<SpotLight>(*loaded(withLight(R"({"type":"spot","spot":{}})")).root)->outerAngle,
+                  0.25f * glm::pi<float>());
+  EXPECT_THAT(failure(withLight(R"({"type":"spot","spot":{"innerConeAngle":0.6,"outerConeAngle":0.5}})")),
+              HasSubstr("light 0"));
+  EXPECT_THAT(failure(withLight(R"({"type":"area"})")), HasSubstr("light 0"));
 
   const GltfScene dark =
       loaded(withLight(R"({"type":"point"})"), {.replacements = {}, .lights = false, .btf = {}});

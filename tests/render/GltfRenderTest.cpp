@@ -146,5 +146,36 @@ TEST_F(GltfRender, LightsAndPlacesAsTheFileSays) {
   EXPECT_LT(compareImages(actual, target.read(context())).maximum, 1e-5f);
 }
 
+TEST_F(GltfRender, ShowsAnOrthographicCamerasViewFromAFarAway) {
+  // What a narrow perspective view from far away comes close to, highlights included.
+  const auto pictureOf = [&](const std::string& camera, const std::string& z) {
+    const std::string material = R"({"pbrMetallicRoughness":{"roughnessFactor":0.4}})";
+    test::writeText(
+        folder / "scene.gltf",
+        test::replaced(
+            test::replaced(
+                test::planeGltf(material), R"({"asset")",
+                R"({"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},"cameras":[)" +
+                    camera + R"(],"asset")"),
+            R"("nodes":[{"mesh":0,"name":"plane"}])",
+            R"("nodes":[{"children":[1,2,3]},{"mesh":0,"rotation":[0.2588190451,0,0,0.9659258263]},)"
+            R"({"translation":[0.5,1,2],"extensions":{"KHR_lights_punctual":{"light":0}}},)"
+            R"({"translation":[0,0,)" +
+                z + R"(],"camera":0}])"));
+    const GltfScene scene = test::valueOf(loadGltf(folder / "scene.gltf"));
+    const RenderTarget target(kSize, kSize, Precision::Float);
+    test::requireDone(renderer.render(context(), *scene.root, scene.cameras.at(0).camera, target));
+    return target.read(context());
+  };
+  const FloatImage orthographic =
+      pictureOf(R"({"type":"orthographic","orthographic":{"xmag":0.6,"ymag":0.6,"znear":0,"zfar":10}})", "5");
+  const FloatImage perspective =
+      pictureOf(R"({"type":"perspective","perspective":{"yfov":0.0012,"znear":990,"zfar":1010}})", "1000");
+  const FloatImage near =
+      pictureOf(R"({"type":"perspective","perspective":{"yfov":0.58,"znear":1,"zfar":10}})", "2");
+  EXPECT_LT(compareImages(orthographic, perspective, 2e-2f).failingShare, 0.02);
+  EXPECT_GT(compareImages(orthographic, near, 2e-2f).failingShare, 0.1);
+}
+
 }  // namespace
 }  // namespace weft

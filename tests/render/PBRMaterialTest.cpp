@@ -75,6 +75,13 @@ std::shared_ptr<Node> lamp(glm::vec3 place, glm::vec3 intensity) {
   return node;
 }
 
+/// Shines along -Z, on a part of what is there.
+std::shared_ptr<Node> spot(glm::vec3 place) {
+  auto node = std::make_shared<Node>(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), place)));
+  node->addChild(std::make_shared<SpotLight>(glm::vec3(3, 4, 5), 0.2f, 0.4f));
+  return node;
+}
+
 std::shared_ptr<const TextureChunk> texture(std::vector<glm::u8vec4> texels, int width, bool srgb = false) {
   auto image = std::make_shared<Image>(width, static_cast<int>(texels.size()) / width, 4);
   for (std::size_t i = 0; i < texels.size(); ++i)
@@ -210,7 +217,7 @@ TEST_F(PBRMaterialTest, WhiteWithoutHighlightsLooksLikeAWhiteBtf) {
   const auto sphere = std::make_shared<const Mesh>(makeSphere(24));
   std::vector<std::shared_ptr<Node>> lights{sun({0.4f, 0.2f, 0.5f}, {1, 2, 3}),
                                             sun({-1, 0.2f, 0.1f}, {3, 2, 1}),
-                                            lamp({0.5f, -0.7f, 1.2f}, {3, 2, 1})};
+                                            lamp({0.5f, -0.7f, 1.2f}, {3, 2, 1}), spot({0.2f, 0.3f, 2.5f})};
   for (const auto& light : lights) {
     const auto under = [&](std::shared_ptr<const Material> material) {
       auto root = test::dressed(std::move(material), sphere);

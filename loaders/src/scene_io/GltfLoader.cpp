@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -55,6 +56,31 @@ std::optional<glm::mat4> viewOf(const glm::mat4& toWorld) {
   const glm::mat4 view = glm::inverse(rigid);
   if (!isFinite(view)) return std::nullopt;  // two axes are one
   return view;
+}
+
+/// A camera without a place; a perspective one may lack a far plane, which is then 0.
+std::optional<Camera> lensOf(const tinygltf::Camera& source) {
+  constexpr double kLargest = 1e30;
+  Camera camera;
+  if (source.type == "perspective") {
+    const tinygltf::PerspectiveCamera& lens = source.perspective;
+    if (!(lens.yfov > 0.0 && lens.yfov < 3.1 && lens.znear > 0.0 && lens.zfar < kLargest) ||
+        (lens.zfar != 0.0 && lens.zfar <= lens.znear))
+      return std::nullopt;
+    camera.verticalFieldOfView = static_cast<float>(lens.yfov);
+    camera.nearPlane = static_cast<float>(lens.znear);
+    camera.farPlane = static_cast<float>(lens.zfar);
+  } else {
+    // The width follows the picture, as with a perspective one.
+    const tinygltf::OrthographicCamera& lens = source.orthographic;
+    if (!(lens.ymag > 0.0 && lens.ymag < kLargest && lens.znear >= 0.0 && lens.zfar > lens.znear &&
+          lens.zfar < kLargest))
+      return std::nullopt;
+    camera.orthographicHeight = static_cast<float>(2.0 * lens.ymag);
+    camera.nearPlane = static_cast<float>(lens.znear);
+    camera.farPlane = static_cast<float>(lens.zfar);
+  }
+  return camera;
 }
 
 class SceneReader {
@@ -205,20 +231,11 @@ class SceneReader {
     if (static_cast<std::size_t>(node.camera) >= file_.model.cameras.size())
       return file_.fail("camera " + index + " does not exist");
     const tinygltf::Camera& source = file_.model.cameras[static_cast<std::size_t>(node.camera)];
-    if (source.type != "perspective") {
-      warn("camera \"" + source.name + "\" is left out, it is not a perspective one");
-      return {};
-    }
     const std::optional<glm::mat4> view = viewOf(toWorld);
-    const tinygltf::PerspectiveCamera& lens = source.perspective;
-    const bool valid = view && lens.yfov > 0.0 && lens.yfov < 3.1 && lens.znear > 0.0 &&
-                       (lens.zfar == 0.0 || lens.zfar > lens.znear) && lens.zfar < 1e30;
-    if (!valid) return file_.fail("camera " + index + " is not a valid perspective camera");
-    Camera camera;
+    const std::optional<Camera> lens = lensOf(source);
+    if (!view || !lens) return file_.fail("camera " + index + " is not a valid camera");
+    Camera camera = *lens;
     camera.view = *view;
-    camera.verticalFieldOfView = static_cast<float>(lens.yfov);
-    camera.nearPlane = static_cast<float>(lens.znear);
-    camera.farPlane = static_cast<float>(lens.zfar);
     scene_.cameras.push_back({source.name.empty() ? node.name : source.name, camera});
     return {};
   }
@@ -230,21 +247,35 @@ class SceneReader {
     if (index < 0 || static_cast<std::size_t>(index) >= file_.model.lights.size())
       return file_.fail("a node names a light that does not exist");
     const tinygltf::Light& light = file_.model.lights[static_cast<std::size_t>(index)];
-    if (light.type != "point" && light.type != "directional") {
-      warn("light \"" + light.name + "\" is left out, it is neither a point nor a directional one");
-      return {};
-    }
     glm::vec3 intensity(static_cast<float>(light.intensity));
     if (light.color.size() == 3) intensity *= glm::vec3(light.color[0], light.color[1], light.color[2]);
     const bool valid = (light.color.empty() || light.color.size() == 3) && intensity.x >= 0.0f &&
                        intensity.y >= 0.0f && intensity.z >= 0.0f && std::isfinite(glm::length(intensity));
     if (!valid) return file_.fail("light " + std::to_string(index) + " has a broken colour or intensity");
-    if (light.type == "point")
-      placed.addChild(std::make_shared<PointLight>(intensity));
-    else
-      placed.addChild(std::make_shared<DirectionalLight>(intensity));
+    WEFT_TRY(std::shared_ptr<const NodeCore> core, lightFrom(index, light, intensity));
+    placed.addChild(std::move(core));
     ++scene_.lights;
     return {};
+  }
+
+  Result<std::shared_ptr<const NodeCore>> lightFrom(int index, const tinygltf::Light& light,
+                                                    glm::vec3 intensity) const {
+    if (light.type == "directional") return std::make_shared<const DirectionalLight>(intensity);
+    const auto range =
+        light.range > 0.0 ? static_cast<float>(light.range) : std::numeric_limits<float>::infinity();
+    if (light.type == "point") {
+      auto point = std::make_shared<PointLight>(intensity);
+      point->range = range;
+      return point;
+    }
+    const auto inner = static_cast<float>(light.spot.innerConeAngle);
+    const auto outer = static_cast<float>(light.spot.outerConeAngle);
+    if (light.type != "spot" || !(inner >= 0.0f && inner < outer && outer < 1.5708f))
+      return file_.fail("light " + std::to_string(index) +
+                        " is of no kind that glTF knows, or has a broken cone");
+    auto spot = std::make_shared<SpotLight>(intensity, inner, outer);
+    spot->range = range;
+    return spot;
   }
 
   /// A camera may leave its far plane out; then it sees the whole scene.

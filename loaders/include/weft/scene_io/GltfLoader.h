@@ -62,7 +62,7 @@ struct GltfScene {
   };
 
   std::shared_ptr<Node> root;
-  std::vector<NamedCamera> cameras;    ///< perspective ones, in the order of their nodes
+  std::vector<NamedCamera> cameras;    ///< in the order of their nodes
   std::vector<std::string> materials;  ///< names of all materials that something is drawn with; "" has none
   std::vector<Animation> animations;   ///< all that the file has
   std::vector<GltfData> data;          ///< unknown extensions and extras, in the order of the file
