@@ -2,6 +2,7 @@
 #version 450 core
 #include "lights.glsl"
 #include "tangent_frame.glsl"
+#include "ggx.glsl"
 
 const float pi = 3.14159265358979;
 
@@ -88,18 +89,6 @@ vec3 surfaceNormal() {
   n *= inversesqrt(max(dot(n, n), 1e-12));
 #endif
   return gl_FrontFacing ? n : -n;
-}
-
-// D V of GGX with Smith's height-correlated shadowing, per steradian. 1 - (n.h)^2 comes from a cross product because it
-// cancels out at the peak of smooth surfaces.
-float microfacets(float alpha, vec3 n, vec3 h, float nl, float nv) {
-  float squared = alpha * alpha;
-  vec3 across = cross(n, h);
-  float nh = dot(n, h);
-  if (nh <= 0.0) return 0.0;
-  float width = dot(across, across) + squared * nh * nh;
-  float shadowing = nl * sqrt(nv * nv * (1.0 - squared) + squared) + nv * sqrt(nl * nl * (1.0 - squared) + squared);
-  return squared / (pi * width * width) * 0.5 / shadowing;
 }
 
 // Unit vectors; nl > 0. Per steradian.

@@ -57,7 +57,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--cosine", a.cosine,
                  "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do "
-                 "[out; in for ptm and --space stored]")
+                 "[out; in for ptm, bump and --space stored]")
       ->check(CLI::IsMember({"out", "in"}));
   app.add_option(
          "--space", a.space,
@@ -134,6 +134,9 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
   const FitOptions options = fitOptions(arguments);
+  WEFT_TRY(const auto model, ModelRegistry::builtin().create(options.model));
+  if (arguments.cosine == "out" && model->containsCosine())
+    return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
   const BtfDescription& measured = source->description();
   const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
@@ -155,7 +158,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   report["lobes"] = result.field.model().description().lobes;
   report["rho_d"] = arguments.diffuse;
   report["color"] = arguments.color;
-  report["cosine"] = options.cosineInModel ? "in" : "out";
+  report["cosine"] = result.field.description().hasCosine ? "in" : "out";
   report["space"] = options.space == FitSpace::Linear ? "linear" : "stored";
   report["views"] = measured.views.size();
   report["lights"] = measured.lights.size();

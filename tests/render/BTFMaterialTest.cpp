@@ -12,6 +12,7 @@
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/ExrFile.h"
 #include "weft/materials/LambertMaterial.h"
+#include "weft/materials/PBRMaterial.h"
 #include "weft/reflectance/LayerLookup.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Transform.h"
@@ -155,7 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(ModelDescription{.name = "rfp"}, ModelDescription{.name = "rfnl", .lobes = 2},
                     ModelDescription{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView},
                     ModelDescription{.name = "laf", .lobes = 4}, ModelDescription{.name = "slaf", .lobes = 3},
-                    ModelDescription{.name = "laf", .lobes = 1, .color = FitColor::Rgb}),
+                    ModelDescription{.name = "laf", .lobes = 1, .color = FitColor::Rgb},
+                    ModelDescription{.name = "bump"}),
     [](const auto& test) {
       return test.param.name + std::to_string(test.param.lobes) +
              (test.param.diffuseAlbedo == DiffuseAlbedo::Shared ? "" : "OwnDiffuse") +
@@ -297,6 +299,29 @@ TEST_F(BTFMaterialTest, WhiteLooksLikeAWhiteLambertianSurface) {
   const auto directional = std::make_shared<DirectionalLight>(glm::vec3(1.0f, 2.0f, 3.0f));
   const glm::mat4 turned = shiningFrom({0.4f, 0.2f, 0.5f});
   expectEqualPictures(under(btf, directional, turned), under(lambert, directional, turned), 1e-3f);
+}
+
+// What a bump-mapped field shows is what glTF's material of the same numbers shows.
+TEST_F(BTFMaterialTest, BumpIsAMetallicRoughnessMaterial) {
+  const glm::vec3 normal = directionFromDegrees(25, 130);
+  const glm::vec2 p = parabolicFromDirection(normal);
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "bump"}));
+  FloatImage shared(1, 1, model->sharedChannels());
+  std::ranges::copy(std::array{1.0f, 1.0f, 1.0f, 0.3f, p.x, p.y, 0.45f}, shared.texel(0, 0).begin());
+  ReflectanceFieldDescription description;
+  description.views = {{0, 0, 1}};
+  description.lights = {directionFromDegrees(89, 0)};
+  description.hasCosine = true;
+  auto bump = valueOf(BTFMaterial::create(std::make_shared<const ReflectanceField>(
+      valueOf(ReflectanceField::create(model, description, std::move(shared), {})))));
+
+  const auto pbr = std::make_shared<PBRMaterial>(
+      PBROptions{.baseColor = glm::vec4(glm::vec3(0.3f), 1.0f), .metallic = 0.0f, .roughness = 0.45f});
+  auto tilted = square();
+  tilted->normals.assign(4, normal);
+  for (glm::vec3 light :
+       {directionFromDegrees(10, 0), directionFromDegrees(40, 120), directionFromDegrees(80, 300)})
+    expectEqualPictures(picture(*scene(bump, square(), light)), picture(*scene(pbr, tilted, light)), 1e-3f);
 }
 
 TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {

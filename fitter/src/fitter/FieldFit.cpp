@@ -29,11 +29,12 @@ std::vector<glm::vec3> without(const std::vector<glm::vec3>& directions, const s
   return rest;
 }
 
-ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const FitOptions& options) {
+ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const FitOptions& options,
+                                          const ReflectanceModel& model) {
   const bool stored = options.space == FitSpace::Stored;
   return {without(measured.views, heldOut(measured.views, options.holdOutViews)),
           without(measured.lights, heldOut(measured.lights, options.holdOutLights)),
-          options.cosineInModel || stored,
+          options.cosineInModel || stored || model.containsCosine(),
           stored ? measured.encoding : Encoding::Linear,
           measured.name,
           {}};
@@ -184,7 +185,7 @@ Result<FieldFit> FieldFit::create(const BtfSource& source, const FitOptions& opt
   WEFT_TRY_VOID(options.validate());
   WEFT_TRY(const Crop crop, checkedCrop(options.crop, measured));
   WEFT_TRY(std::shared_ptr<const ReflectanceModel> model, ModelRegistry::builtin().create(options.model));
-  ReflectanceFieldDescription description = descriptionOf(measured, options);
+  ReflectanceFieldDescription description = descriptionOf(measured, options, *model);
   WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
   WEFT_TRY(std::unique_ptr<TexelFitter> fitter,
            FitterRegistry::builtin().create({description.views, description.lights, description.hasCosine,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "BumpFitter.h"
 #include "LafFitter.h"
 #include "RfnlFitter.h"
 #include "RfpFitter.h"
@@ -16,6 +17,7 @@ FitterRegistry FitterRegistry::builtin() {
   registry.add("ptm", RfpFitter::createForOneView);
   registry.add("laf", LafFitter::create);
   registry.add("slaf", LafFitter::create);
+  registry.add("bump", BumpFitter::create);
   return registry;
 }
 

@@ -42,6 +42,9 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
   formula.lowestViewZ_ = lowestZ(description.views);
   if (description.hasCosine && formula.lowestLightZ_ <= 0.0f)
     return fail("a field that contains n.l has no light above the horizon");
+  if (model->containsCosine() && !description.hasCosine)
+    return fail("the values of the model '" + model->description().name +
+                "' contain n.l, the field's do not");
   const LayerDirections kind = model->layerDirections();
   if (kind != LayerDirections::None) {
     const auto& directions = kind == LayerDirections::Views ? description.views : description.lights;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "weft/reflectance/BumpModel.h"
 #include "weft/reflectance/LafModel.h"
 #include "weft/reflectance/ReflectanceModel.h"
 #include "weft/reflectance/RfnlModel.h"
@@ -17,6 +18,7 @@ ModelRegistry ModelRegistry::builtin() {
   registry.add("ptm", RfpModel::create);
   registry.add("laf", LafModel::create);
   registry.add("slaf", LafModel::create);
+  registry.add("bump", BumpModel::create);
   return registry;
 }
 

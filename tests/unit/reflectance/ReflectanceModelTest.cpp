@@ -94,6 +94,25 @@ TEST(ReflectanceModel, EachColorChannelMayHaveNumbersOfItsOwn) {
   EXPECT_EQ(model->evaluateColor(shared, numbers, kView, kView), glm::vec3(0.5f, 0.5f, 0.75f));
 }
 
+// At the mirror direction of a normal n, seen from 30 degrees off it: n.l (0.96 albedo + F pi D V) with the D
+// and V of glTF's appendix B, where n.h is 1.
+TEST(ReflectanceModel, BumpIsAGlossyDielectricAroundItsOwnNormal) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "bump"}));
+  EXPECT_EQ(model->layerDirections(), LayerDirections::None);
+  EXPECT_TRUE(model->containsCosine());
+  const glm::vec3 n = directionFromDegrees(20, 90);
+  const glm::vec2 p = parabolicFromDirection(n);
+  const std::array numbers{0.4f, p.x, p.y, 0.5f};
+  const double alpha = 0.25;
+  const double cosine = std::cos(30.0 * M_PI / 180.0);
+  const double d = 1.0 / (M_PI * alpha * alpha);
+  const double v = 0.25 / (cosine * std::sqrt(cosine * cosine * (1.0 - alpha * alpha) + alpha * alpha));
+  const double fresnel = 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
+  EXPECT_NEAR(model->evaluate(numbers, {}, directionFromDegrees(50, 90), directionFromDegrees(10, 270)),
+              cosine * ((1.0 - fresnel) * 0.4 + fresnel * M_PI * d * v), 1e-5);
+  EXPECT_EQ(model->evaluate(numbers, {}, directionFromDegrees(85, 270), directionFromDegrees(10, 270)), 0.0f);
+}
+
 TEST(ReflectanceModel, UnknownModelsAndImpossibleLobesAreRefused) {
   const ModelRegistry registry = ModelRegistry::builtin();
   const auto unknown = registry.create({.name = "magic"});

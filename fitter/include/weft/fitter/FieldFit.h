@@ -34,7 +34,7 @@ struct FitOptions {
   ModelDescription model;
   Precision precision = Precision::Half;  ///< of the stored numbers; half changes eps by less than 0.0001
   /// True: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading. Values in
-  /// FitSpace::Stored always contain it.
+  /// FitSpace::Stored and of models that say so (containsCosine()) always contain it.
   bool cosineInModel = false;
   FitSpace space = FitSpace::Linear;
   std::optional<Crop> crop;  ///< texels to fit; all by default

@@ -47,6 +47,8 @@ class ReflectanceModel {
 
   const ModelDescription& description() const { return description_; }
   virtual LayerDirections layerDirections() const { return LayerDirections::Views; }
+  /// Whether evaluate() gives values that contain n.l by its very formula; else that is up to the fit.
+  virtual bool containsCosine() const { return false; }
   /// Names of the shared numbers but the base colour, in the order in which evaluate() and the GLSL read
   /// them.
   virtual std::vector<std::string> sharedNumbers() const { return {}; }
