@@ -13,6 +13,7 @@
 #include "ExchangedFitter.h"
 #include "LightSpacing.h"
 #include "weft/core/Direction.h"
+#include "weft/reflectance/RfnlModel.h"
 
 namespace weft {
 namespace {
@@ -75,32 +76,35 @@ std::vector<int> nearestLights(glm::vec3 light, const std::vector<glm::vec3>& li
           order.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, lights.size()))};
 }
 
+// The lights within 30 degrees of each, itself included.
+std::vector<std::vector<int>> closeLights(const std::vector<glm::vec3>& lights) {
+  std::vector<std::vector<int>> close(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    for (std::size_t k = 0; k < lights.size(); ++k)
+      if (glm::dot(lights[i], lights[k]) > 0.87f) close[i].push_back(static_cast<int>(k));
+  return close;
+}
+
 // Where a view's reflectance stands out from that of the neighbouring lights: the principal directions of
 // M 4.1.
-std::vector<std::size_t> peaksOf(const std::vector<float>& reflectance,
-                                 const std::vector<std::vector<int>>& neighbors,
-                                 const std::vector<glm::vec3>& lights, std::size_t wanted) {
-  std::vector<float> highPass(reflectance.size());
+void findPeaks(const std::vector<float>& reflectance, const LightNeighbors& neighbors,
+               std::vector<float>& highPass, std::span<std::size_t> peaks) {
   for (std::size_t i = 0; i < reflectance.size(); ++i) {
-    float mean = 0.0f;
-    for (int n : neighbors[i]) mean += reflectance[static_cast<std::size_t>(n)];
-    highPass[i] = reflectance[i] - mean / static_cast<float>(neighbors[i].size());
+    float sum = 0.0f;
+    for (int n : neighbors.nearest[i]) sum += reflectance[static_cast<std::size_t>(n)];
+    highPass[i] = reflectance[i] - sum / static_cast<float>(neighbors.nearest[i].size());
   }
-  std::vector<std::size_t> peaks;
-  while (peaks.size() < wanted) {
-    const auto highest = static_cast<std::size_t>(std::ranges::max_element(highPass) - highPass.begin());
-    peaks.push_back(highest);
-    for (std::size_t i = 0; i < highPass.size(); ++i)
-      if (glm::dot(lights[i], lights[highest]) > 0.87f)  // 30 degrees
-        highPass[i] = -std::numeric_limits<float>::infinity();
+  for (std::size_t& peak : peaks) {
+    peak = static_cast<std::size_t>(std::ranges::max_element(highPass) - highPass.begin());
+    for (int i : neighbors.close[peak])
+      highPass[static_cast<std::size_t>(i)] = -std::numeric_limits<float>::infinity();
   }
-  return peaks;
 }
 
 // All views of one texel.
 class TexelFit {
  public:
-  TexelFit(const LobeProblem& problem, const std::vector<std::vector<int>>& neighbors, int lobes,
+  TexelFit(const LobeProblem& problem, const LightNeighbors& neighbors, int lobes,
            std::span<const float> targets, std::span<const float> weights)
       : problem_(problem),
         neighbors_(neighbors),
@@ -112,13 +116,16 @@ class TexelFit {
         weights_(weights),
         parameters_(views_ * stride_),
         costs_(views_, std::numeric_limits<float>::infinity()),
-        diffuseSlopes_(views_) {}
+        diffuseSlopes_(views_),
+        reflectance_(lights_) {}
 
   // Every view alone, from a broad lobe and peaks, from peaks alone, and from what became of the view before
   // it, since neighbouring views look alike; the best goes on.
   void fitViews() {
     std::vector<float> broadAndPeaks;
     std::vector<float> peaksAlone;
+    broadAndPeaks.reserve(parameters_.size());
+    peaksAlone.reserve(parameters_.size());
     for (std::size_t v = 0; v < views_; ++v) appendStarts(v, broadAndPeaks, peaksAlone);
     tryStarts(std::move(broadAndPeaks));
     tryStarts(std::move(peaksAlone));
@@ -166,17 +173,16 @@ class TexelFit {
     return lobes;
   }
 
-  void appendStarts(std::size_t view, std::vector<float>& broadAndPeaks,
-                    std::vector<float>& peaksAlone) const {
-    std::vector<float> reflectance(lights_);
+  void appendStarts(std::size_t view, std::vector<float>& broadAndPeaks, std::vector<float>& peaksAlone) {
     for (std::size_t i = 0; i < lights_; ++i)
-      reflectance[i] = targets_[view * lights_ + i] / std::max(problem_.cosines[i], 0.2f);
-    std::vector<float> ordered = reflectance;
-    const auto quantile = [&](std::size_t rank) {
-      std::ranges::nth_element(ordered, ordered.begin() + static_cast<std::ptrdiff_t>(rank));
-      return ordered[rank];
-    };
-    const float floor = quantile(lights_ / 4);
+      reflectance_[i] = targets_[view * lights_ + i] / std::max(problem_.cosines[i], 0.2f);
+    // The quarter's rank first: what is above it is then all that the other must look at.
+    scratch_ = reflectance_;
+    const auto rank = [&](std::size_t r) { return scratch_.begin() + static_cast<std::ptrdiff_t>(r); };
+    std::nth_element(scratch_.begin(), rank(lights_ / 4), scratch_.end());
+    const float floor = scratch_[lights_ / 4];
+    std::nth_element(rank(lights_ / 4), rank(lights_ * 9 / 10), scratch_.end());
+    const float high = scratch_[lights_ * 9 / 10];
     const float largest = problem_.largestExponent;
     const auto append = [](std::vector<float>& starts, const LobeParameters& lobe) {
       starts.insert(starts.end(), lobe.begin(), lobe.end());
@@ -184,15 +190,14 @@ class TexelFit {
 
     glm::vec3 sum(0.0f, 0.0f, 1e-6f);
     for (std::size_t i = 0; i < lights_; ++i)
-      sum += std::max(reflectance[i] - floor, 0.0f) * problem_.lights[i];
-    append(broadAndPeaks,
-           lobeParameters(quantile(lights_ * 9 / 10) - floor, glm::normalize(sum), 2.0f, largest));
-    const std::vector<std::size_t> peaks =
-        peaksOf(reflectance, neighbors_, problem_.lights, static_cast<std::size_t>(lobes_));
-    for (std::size_t j = 0; j < peaks.size(); ++j) {
-      const float height = 0.5f * (reflectance[peaks[j]] - floor);
+      sum += std::max(reflectance_[i] - floor, 0.0f) * problem_.lights[i];
+    append(broadAndPeaks, lobeParameters(high - floor, glm::normalize(sum), 2.0f, largest));
+    std::array<std::size_t, RfnlModel::kMaximumLobes> peaks{};
+    findPeaks(reflectance_, neighbors_, scratch_, std::span(peaks).first(static_cast<std::size_t>(lobes_)));
+    for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
+      const float height = 0.5f * (reflectance_[peaks[j]] - floor);
       append(peaksAlone, lobeParameters(height, problem_.lights[peaks[j]], 5.0f, largest));
-      if (j + 1 < peaks.size())
+      if (j + 1 < static_cast<std::size_t>(lobes_))
         append(broadAndPeaks, lobeParameters(height, problem_.lights[peaks[j]], 10.0f, largest));
     }
     const float diffuseRoot = std::sqrt(std::max(0.8f * floor, 1e-6f));
@@ -243,7 +248,7 @@ class TexelFit {
   }
 
   const LobeProblem& problem_;
-  const std::vector<std::vector<int>>& neighbors_;
+  const LightNeighbors& neighbors_;
   int lobes_;
   std::size_t lights_;
   std::size_t views_;
@@ -253,6 +258,8 @@ class TexelFit {
   std::vector<float> parameters_;  // [view][LobeJob::parameters]
   std::vector<float> costs_;
   std::vector<float> diffuseSlopes_;
+  std::vector<float> reflectance_;  // of the view whose starts are sought
+  std::vector<float> scratch_;
 };
 
 }  // namespace
@@ -279,8 +286,9 @@ RfnlFitter::RfnlFitter(const FitProblem& problem)
   problem_.largestExponent = sharpestExponent(problem.lights);
   for (const glm::vec3 light : problem.lights) {
     problem_.cosines.push_back(problem.cosineInModel ? 1.0f : light.z);
-    neighbors_.push_back(nearestLights(light, problem.lights));
+    neighbors_.nearest.push_back(nearestLights(light, problem.lights));
   }
+  neighbors_.close = closeLights(problem.lights);
 }
 
 void RfnlFitter::fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,

@@ -5,6 +5,12 @@
 
 namespace weft {
 
+/// What lies around each of the lights.
+struct LightNeighbors {
+  std::vector<std::vector<int>> nearest;  ///< the six nearest others, the nearest first
+  std::vector<std::vector<int>> close;    ///< all within 30 degrees
+};
+
 /// Fits `rfnl` and `lfnl`: the lobes of each view from several starts (LobeSolver.h), alternating with a
 /// closed-form diffuse albedo where the views share one.
 class RfnlFitter : public TexelFitter {
@@ -21,7 +27,7 @@ class RfnlFitter : public TexelFitter {
   explicit RfnlFitter(const FitProblem& problem);
 
   LobeProblem problem_;
-  std::vector<std::vector<int>> neighbors_;  ///< of each light, the six nearest others, the nearest first
+  LightNeighbors neighbors_;
   int lobes_ = 0;
   bool ownDiffuseAlbedo_ = false;
   bool modelHasCosine_ = false;

@@ -39,7 +39,8 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
   WEFT_TRY_VOID(checkDirections(description.lights, "light"));
   FieldFormula formula;
   formula.lowestLightZ_ = lowestZ(description.lights);
-  formula.lowestViewZ_ = lowestZ(description.views);
+  // Models of a surface hold from everywhere, tables and lobes only where there were views.
+  if (!model->containsCosine()) formula.lowestViewZ_ = lowestZ(description.views);
   if (description.hasCosine && formula.lowestLightZ_ <= 0.0f)
     return fail("a field that contains n.l has no light above the horizon");
   if (model->containsCosine() && !description.hasCosine)
