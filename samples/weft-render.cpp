@@ -280,8 +280,8 @@ void addLamps(std::vector<Settings::Lamp> lamps, const Camera& camera, GltfScene
 }
 
 /// Milliseconds of whole frames, in their order; each ends when GL has finished it.
-Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLContext& context, const Node& root,
-                                       const Camera& camera, const RenderTarget& target) {
+Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLContext& context,
+                                       const Node& root, const Camera& camera, const RenderTarget& target) {
   std::vector<double> times;
   for (int frame = 0; frame < count; ++frame) {
     const auto start = std::chrono::steady_clock::now();

@@ -54,7 +54,7 @@ TEST(FitErrors, ExtremesAreOverTexels) {
   std::array<TexelErrors, 3> texels;
   for (int i = 0; i < 3; ++i)
     add(texels[static_cast<std::size_t>(i)], glm::vec3(0.5f), glm::vec3(0.5f + 0.1f * static_cast<float>(i)),
-                                            Encoding::Linear, false);
+        Encoding::Linear, false);
   const ErrorStatistics statistics = summarize(texels).of(ErrorSpace::Linear, ErrorMeasure::Rgb);
   EXPECT_NEAR(statistics.minimum, 0.0, 1e-7);
   EXPECT_NEAR(statistics.maximum, 0.2, 1e-6);
