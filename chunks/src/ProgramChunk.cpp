@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "weft/chunks/GLName.h"
 
@@ -96,8 +95,20 @@ LinkedProgram make(const ShaderSource& source) {
   return {std::move(*text), std::move(program)};
 }
 
-ShaderSource withDefines(ShaderSource source, const ShaderDefines& defines) {
+/// Replaces the program if the text is another and in order.
+Result<bool> reload(const ShaderSource& source, LinkedProgram& program) {
+  WEFT_TRY(ProgramText text, assemble(source));
+  if (text == program.text) return false;
+  WEFT_TRY(GLProgram linked, link(source, text));
+  program = {std::move(text), std::move(linked)};
+  return true;
+}
+
+/// What a program is made of in this context.
+ShaderSource sourceIn(const GLContext& context, ShaderSource source) {
+  const ShaderDefines& defines = context.programDefines();
   source.defines.insert(source.defines.end(), defines.begin(), defines.end());
+  if (source.overrideFolder.empty()) source.overrideFolder = context.shaderFolder();
   return source;
 }
 
@@ -116,7 +127,7 @@ void ProgramChunk::activate(GLContext& context, unsigned) const {
   auto& objects = context.objectsOf<ProgramObjects>(owner_);
   if (!objects.active || objects.activeRevision != context.programDefinesRevision()) {
     auto& variant = objects.variants[context.programDefines()];
-    if (!variant) variant = findOrMake(context, withDefines(source_, context.programDefines()));
+    if (!variant) variant = findOrMake(context, sourceIn(context, source_));
     objects.active = variant.get();
     objects.activeRevision = context.programDefinesRevision();
   }
@@ -133,22 +144,19 @@ void ProgramChunk::deactivate(GLContext&, unsigned) const {
   glUseProgram(0);
 }
 
-Result<bool> ProgramChunk::reload(GLContext& context) const {
-  const auto& variants = context.objectsOf<ProgramObjects>(owner_).variants;
-  std::vector<std::pair<LinkedProgram*, LinkedProgram>> changes;
-  for (const auto& [defines, variant] : variants) {
-    const ShaderSource source = withDefines(source_, defines);
-    WEFT_TRY(ProgramText text, assemble(source));
-    if (text == variant->text) continue;
-    WEFT_TRY(GLProgram program, link(source, text));
-    changes.emplace_back(variant.get(), LinkedProgram{std::move(text), std::move(program)});
-  }
-  for (auto& [variant, change] : changes) *variant = std::move(change);
-  return !changes.empty();
-}
-
 bool ProgramChunk::isEqual(const Chunk& other) const {
   return source_ == static_cast<const ProgramChunk&>(other).source_;
+}
+
+Result<bool> reloadPrograms(GLContext& context) {
+  Result<bool> changed = false;
+  for (const auto& [source, known] : context.shared<ProgramCache>().programs) {
+    const std::shared_ptr<LinkedProgram> program = known.lock();
+    if (!program) continue;
+    const Result<bool> reloaded = reload(source, *program);
+    if (changed && (!reloaded || *reloaded)) changed = reloaded;
+  }
+  return changed;
 }
 
 }  // namespace weft

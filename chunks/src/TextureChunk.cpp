@@ -6,6 +6,7 @@
 #include <bit>
 #include <vector>
 
+#include "SamplingParameters.h"
 #include "TextureFormat.h"
 #include "weft/chunks/GLName.h"
 
@@ -141,24 +142,6 @@ bool fits(GLContext& context, TextureShape shape, const Texels& texels) {
   return false;
 }
 
-GLint wrapMode(TextureWrap wrap) {
-  if (wrap == TextureWrap::Clamp) return GL_CLAMP_TO_EDGE;
-  return wrap == TextureWrap::Repeat ? GL_REPEAT : GL_MIRRORED_REPEAT;
-}
-
-void setSampling(GLuint texture, const TextureOptions& options) {
-  const bool nearest = options.filter == TextureFilter::Nearest;
-  const bool nearestAbove = options.magnification.value_or(options.filter) == TextureFilter::Nearest;
-  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, nearestAbove ? GL_NEAREST : GL_LINEAR);
-  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
-                      options.filter == TextureFilter::Mipmapped ? GL_LINEAR_MIPMAP_LINEAR
-                      : nearest                                  ? GL_NEAREST
-                                                                 : GL_LINEAR);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(texture, axis, wrapMode(options.wrap));
-  if (options.wrapV) glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrapMode(*options.wrapV));
-}
-
 GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options) {
   GLuint name = 0;
   glCreateTextures(target(options.shape), 1, &name);
@@ -167,7 +150,8 @@ GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options
     glTextureStorage2D(name, layout.levels, layout.storage, layout.width, layout.height);
   else
     glTextureStorage3D(name, layout.levels, layout.storage, layout.width, layout.height, layout.layers);
-  setSampling(name, options);
+  setSampling({options.filter, options.wrap, options.wrapV, options.magnification}, name,
+              glTextureParameteri);
   return GLTexture(name);
 }
 

@@ -11,6 +11,7 @@
 #include "GlTest.h"
 #include "TestSupport.h"
 #include "weft/chunks/BlendChunk.h"
+#include "weft/chunks/PolygonOffsetChunk.h"
 #include "weft/chunks/ProgramChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
 #include "weft/materials/ChunkMaterial.h"
@@ -98,6 +99,20 @@ TEST_F(RenderActionTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
     root->addChild(nearFirst ? behind : near);
     EXPECT_COLOR(pixel(picture(*root), 4, 4), 1, 0, 0);
   }
+}
+
+TEST_F(RenderActionTest, PolygonOffsetDecidesWhichOfTwoThingsInOnePlaneShows) {
+  for (const bool decalFirst : {false, true})
+    for (const float towardsViewer : {-1.0f, 1.0f}) {
+      auto material = matt({1, 0, 0});
+      material->setChunk(PolygonOffsetSlot,
+                         std::make_shared<PolygonOffsetChunk>(towardsViewer, 4.0f * towardsViewer));
+      auto root = lit();
+      if (decalFirst) root->addChild(test::dressed(material));
+      root->addChild(test::dressed(matt({0, 1, 0})));
+      if (!decalFirst) root->addChild(test::dressed(material));
+      EXPECT_COLOR(pixel(picture(*root), 4, 4), towardsViewer<0.0f, towardsViewer> 0.0f, 0);
+    }
 }
 
 TEST_F(RenderActionTest, BlendedThingsAreDrawnLastAndFromBackToFront) {

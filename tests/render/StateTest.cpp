@@ -9,8 +9,10 @@
 #include "weft/chunks/BlendChunk.h"
 #include "weft/chunks/CubeTextureChunk.h"
 #include "weft/chunks/DepthChunk.h"
+#include "weft/chunks/PolygonOffsetChunk.h"
 #include "weft/chunks/ProgramChunk.h"
 #include "weft/chunks/RasterChunk.h"
+#include "weft/chunks/SamplerChunk.h"
 #include "weft/chunks/StorageBlockChunk.h"
 #include "weft/chunks/TextureChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
@@ -73,19 +75,30 @@ ChunkList rasters() {
   return chunks;
 }
 
+ChunkList samplers() {
+  ChunkList chunks;
+  for (const TextureWrap wrap : {TextureWrap::Repeat, TextureWrap::Clamp, TextureWrap::Mirror})
+    chunks.push_back(std::make_shared<SamplerChunk>(Sampling{.wrap = wrap}));
+  return chunks;
+}
+
 /// Several of every kind of chunk.
 std::vector<ChunkList> allKinds() {
-  return {programs(),
-          {std::make_shared<BlendChunk>(), std::make_shared<BlendChunk>()},
-          depths(),
-          rasters(),
-          textures(),
-          blocks<UniformBlockChunk>(),
-          blocks<StorageBlockChunk>()};
+  return {
+      programs(),
+      {std::make_shared<BlendChunk>(), std::make_shared<BlendChunk>()},
+      depths(),
+      rasters(),
+      {std::make_shared<PolygonOffsetChunk>(-1.0f, -2.0f), std::make_shared<PolygonOffsetChunk>(3.0f, 0.0f)},
+      textures(),
+      samplers(),
+      blocks<UniformBlockChunk>(),
+      blocks<StorageBlockChunk>()};
 }
 
 unsigned placesOf(Slot kind) {
-  if (kind == TextureSlot) return UniformSlot - TextureSlot;
+  if (kind == TextureSlot) return SamplerSlot - TextureSlot;
+  if (kind == SamplerSlot) return UniformSlot - SamplerSlot;
   if (kind == UniformSlot) return StorageSlot - UniformSlot;
   return kind == StorageSlot ? SlotCount - StorageSlot : 1;
 }

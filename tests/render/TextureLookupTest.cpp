@@ -4,6 +4,7 @@
 #include "TestSupport.h"
 #include "weft/chunks/CubeTextureChunk.h"
 #include "weft/chunks/ProgramChunk.h"
+#include "weft/chunks/SamplerChunk.h"
 #include "weft/chunks/StorageBlockChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
 #include "weft/materials/ChunkMaterial.h"
@@ -73,6 +74,23 @@ TEST_F(TextureLookupTest, RectanglesAreAddressedInTexels) {
   EXPECT_EQ(evaluate("layout(binding = 1) uniform sampler2DRect image;",
                      "texture(image, vec2(i % 4, i / 4) + 0.5).r", 12),
             (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+}
+
+TEST_F(TextureLookupTest, SamplersOverruleTheTextureOfTheirUnit) {
+  const auto image = std::make_shared<FloatImage>(2, 1, std::vector<std::string>{"R"});
+  image->at(1, 0, 0) = 1.0f;
+  const auto texture = std::make_shared<TextureChunk>(image, TextureOptions{.wrap = TextureWrap::Repeat});
+  material.setChunk(textureSlot(3), texture);
+  material.setChunk(textureSlot(4), texture);
+  material.setChunk(samplerSlot(4),
+                    std::make_shared<SamplerChunk>(Sampling{.filter = TextureFilter::Linear}));
+  const std::string declarations =
+      "layout(binding = 3) uniform sampler2D repeated;\nlayout(binding = 4) uniform sampler2D clamped;";
+  EXPECT_EQ(evaluate(declarations, "texture(repeated, vec2(0.2 + 0.5 * i, 0.5)).r", 4),
+            (std::vector<float>{0, 1, 0, 1}));
+  const auto clamped = evaluate(declarations, "texture(clamped, vec2(0.5 + 0.5 * i, 0.5)).r", 4);
+  EXPECT_NEAR(clamped[0], 0.5f, 0.01f);
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(clamped[static_cast<std::size_t>(i)], 1.0f);
 }
 
 TEST_F(TextureLookupTest, EmptyImageSamplesAsBlack) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <typeindex>
 #include <typeinfo>
 #include <unordered_map>
+#include <utility>
 
 #include "weft/chunks/ShaderDefines.h"
 #include "weft/core/Contract.h"
@@ -67,6 +69,11 @@ class GLContext {
   /// Another one for other defines.
   std::uint64_t programDefinesRevision() const { return programDefinesRevision_; }
 
+  /// Where programs of this context look for their files first: to edit shaders while an application runs
+  /// (reloadPrograms()). Empty for nowhere; set it before the first frame.
+  const std::filesystem::path& shaderFolder() const { return shaderFolder_; }
+  void setShaderFolder(std::filesystem::path folder) { shaderFolder_ = std::move(folder); }
+
   /// Deletes the GL objects whose owner is gone; the renderer calls it once a frame.
   void deleteOrphans();
 
@@ -92,6 +99,7 @@ class GLContext {
   std::unordered_map<const void*, Objects> objects_;  ///< by the owner's address
   ShaderDefines programDefines_;
   std::uint64_t programDefinesRevision_ = 1;
+  std::filesystem::path shaderFolder_;
   std::optional<Error> firstError_;
 };
 

@@ -31,6 +31,9 @@ class GLName {
 struct DeleteTexture {
   void operator()(GLuint name) const { glDeleteTextures(1, &name); }
 };
+struct DeleteSampler {
+  void operator()(GLuint name) const { glDeleteSamplers(1, &name); }
+};
 struct DeleteBuffer {
   void operator()(GLuint name) const { glDeleteBuffers(1, &name); }
 };
@@ -48,6 +51,7 @@ struct DeleteFramebuffer {
 };
 
 using GLTexture = GLName<DeleteTexture>;
+using GLSampler = GLName<DeleteSampler>;
 using GLBuffer = GLName<DeleteBuffer>;
 using GLShader = GLName<DeleteShader>;
 using GLProgram = GLName<DeleteProgram>;

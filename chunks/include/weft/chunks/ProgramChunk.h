@@ -21,17 +21,17 @@ class ProgramChunk : public Chunk {
   void changeFrom(GLContext& context, const Chunk& old, unsigned slot) const override;
   void deactivate(GLContext& context, unsigned slot) const override;
 
-  /// Compiles again what was activated in this context, current on this thread, if its files say something
-  /// else than before: for shaders that are edited in ShaderSource::overrideFolder while a program runs. True
-  /// where something changed. Where the new text is in error that is returned, and drawing goes on with the
-  /// old program. All chunks of equal source change.
-  Result<bool> reload(GLContext& context) const;
-
  private:
   bool isEqual(const Chunk& other) const override;
 
   ShaderSource source_;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();
 };
+
+/// Compiles the programs of the current context again whose files say something else than before: for shaders
+/// that are edited while an application runs, in GLContext::shaderFolder() or ShaderSource::overrideFolder.
+/// True where one changed. A program whose new text is in error goes on as it was, and the first such error
+/// comes back, at every call until the text is mended.
+Result<bool> reloadPrograms(GLContext& context);
 
 }  // namespace weft

@@ -20,7 +20,7 @@ struct ShaderSource {
   ShaderDefines defines{};  ///< in both stages
   /// `#include "KEY"` takes the file VALUE instead ("model.glsl" -> "rfnl.glsl").
   std::map<std::string, std::string> includeAliases{};
-  /// Files found here are taken instead of those compiled in; empty for none.
+  /// Files found here are taken instead of those compiled in; empty: GLContext::shaderFolder().
   std::filesystem::path overrideFolder{};
 
   auto operator<=>(const ShaderSource&) const = default;

@@ -11,16 +11,24 @@ enum Slot : unsigned {
   BlendSlot,
   DepthSlot,
   RasterSlot,
+  PolygonOffsetSlot,
   TextureSlot,                     ///< + texture unit 0..31
-  UniformSlot = TextureSlot + 32,  ///< + uniform block binding 0..7; RenderAction keeps 0 for itself
+  SamplerSlot = TextureSlot + 32,  ///< + texture unit 0..31
+  UniformSlot = SamplerSlot + 32,  ///< + uniform block binding 0..7; RenderAction keeps 0 for itself
   StorageSlot = UniformSlot + 8,   ///< + storage block binding 0..7
   SlotCount = StorageSlot + 8,
 };
 
 /// The slot of `layout(binding = unit) uniform sampler...`.
 constexpr unsigned textureSlot(unsigned unit) {
-  WEFT_EXPECT(unit < UniformSlot - TextureSlot, "texture units are 0..31");
+  WEFT_EXPECT(unit < SamplerSlot - TextureSlot, "texture units are 0..31");
   return TextureSlot + unit;
+}
+
+/// The slot of what the texture in textureSlot(unit) is sampled with.
+constexpr unsigned samplerSlot(unsigned unit) {
+  WEFT_EXPECT(unit < UniformSlot - SamplerSlot, "texture units are 0..31");
+  return SamplerSlot + unit;
 }
 
 /// The slot of `layout(std140, binding = binding) uniform`.
@@ -40,6 +48,7 @@ constexpr Slot slotKind(unsigned slot) {
   WEFT_EXPECT(slot < SlotCount, "no such slot");
   if (slot >= StorageSlot) return StorageSlot;
   if (slot >= UniformSlot) return UniformSlot;
+  if (slot >= SamplerSlot) return SamplerSlot;
   if (slot >= TextureSlot) return TextureSlot;
   return static_cast<Slot>(slot);
 }

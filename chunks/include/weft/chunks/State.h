@@ -29,10 +29,11 @@ class State {
   void deactivate(GLContext& context) const { State().changeFrom(context, *this); }
 
  private:
+  void changeSlot(GLContext& context, const State& previous, unsigned slot) const;
+
   std::array<std::shared_ptr<const Chunk>, SlotCount> chunks_;
-  std::uint64_t occupied_ = 0;  ///< bit `slot`
+  std::array<std::uint64_t, (SlotCount + 63) / 64> occupied_{};  ///< bit slot % 64 of number slot / 64
   std::uint64_t revision_ = 0;
-  static_assert(SlotCount <= 64);
 };
 
 }  // namespace weft

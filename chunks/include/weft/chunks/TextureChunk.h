@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "weft/chunks/Chunk.h"
+#include "weft/chunks/Sampling.h"
 #include "weft/core/FloatImage.h"
 #include "weft/core/Image.h"
 
@@ -19,17 +20,13 @@ enum class TextureShape {
   Cube,       ///< samplerCube: six square layers, +X -X +Y -Y +Z -Z
 };
 
-enum class TextureFilter { Nearest, Linear, Mipmapped };
-
-/// What lies beyond the edges.
-enum class TextureWrap { Clamp, Repeat, Mirror };
-
 struct TextureOptions {
   TextureShape shape = TextureShape::Flat;
-  TextureFilter filter = TextureFilter::Nearest;  ///< parameters must not be blended unasked
-  TextureWrap wrap = TextureWrap::Clamp;          ///< the only one that every shape has
-  std::optional<TextureWrap> wrapV{};             ///< along v, where that is another
-  std::optional<TextureFilter> magnification{};  ///< Nearest or Linear, where `filter` is for reduction alone
+  // As in Sampling; a SamplerChunk on the same unit overrules them.
+  TextureFilter filter = TextureFilter::Nearest;
+  TextureWrap wrap = TextureWrap::Clamp;
+  std::optional<TextureWrap> wrapV{};
+  std::optional<TextureFilter> magnification{};
   bool srgb = false;  ///< 8-bit images only: the values are sRGB, sampling gives linear ones
 
   bool operator==(const TextureOptions&) const = default;
