@@ -6,28 +6,22 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
-#include <utility>
-#include <vector>
 
 #include "weft/core/Contract.h"
 #include "weft/scenegraph/Geometry.h"
-#include "weft/scenegraph/Transform.h"
+#include "weft/scenegraph/Traversal.h"
 
 namespace weft {
 namespace {
 
-template <class Visit>
-void forEachVertex(const Node& root, Visit visit) {
-  std::vector<std::pair<const Node*, glm::mat4>> nodes{{&root, glm::mat4(1.0f)}};
-  while (!nodes.empty()) {
-    auto [node, toWorld] = nodes.back();
-    nodes.pop_back();
-    if (const auto* transform = dynamic_cast<const Transform*>(&node->core())) toWorld *= transform->matrix();
-    if (const auto* geometry = dynamic_cast<const Geometry*>(&node->core()))
+template <class See>
+void forEachVertex(const Node& root, See see) {
+  traverse(root, [&](const Node& node, const glm::mat4& toWorld) {
+    if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
       for (const glm::vec3 position : geometry->mesh()->positions)
-        visit(glm::vec3(toWorld * glm::vec4(position, 1.0f)));
-    for (const auto& child : node->children()) nodes.emplace_back(child.get(), toWorld);
-  }
+        see(glm::vec3(toWorld * glm::vec4(position, 1.0f)));
+    return Visit::Continue;
+  });
 }
 
 }  // namespace

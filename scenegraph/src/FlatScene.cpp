@@ -18,6 +18,7 @@ struct FlatScene::Visit {
   std::uint32_t child = 0;  ///< the next one
   std::uint32_t old = 0;    ///< the next child's branch in the old array ...
   std::uint32_t oldEnd = 0;
+  std::uint32_t oldChild = 0;  ///< its number among its brothers there
   bool moved = false;
 };
 
@@ -30,6 +31,7 @@ constexpr std::uint32_t kNew = kNone;
 std::unique_lock<std::mutex> FlatScene::look() {
   std::unique_lock lock(mutex_);
   const std::uint64_t now = changeClock++;
+  updatedNodes_ = 0;
   if (entries_.empty() || root_.childrenChange_ > lastLook_)
     rebuild();
   else if (root_.branchChange_ > lastLook_)
@@ -85,9 +87,9 @@ void FlatScene::rebuild() {
   std::vector<Entry> next;
   next.reserve(entries_.size());
   std::vector<Visit> path;
-  const auto enter = [&](const Node& node, std::uint32_t old) {
+  const auto enter = [&](const Node& node, std::uint32_t old, bool renumbered) {
     const Visit* above = path.empty() ? nullptr : &path.back();
-    const bool moved = (above && above->moved) || old == kNew || node.coreChange_ > lastLook_;
+    const bool moved = (above && above->moved) || old == kNew || renumbered || node.coreChange_ > lastLook_;
     if (!moved && node.branchChange_ <= lastLook_) {
       next.insert(next.end(), entries_.begin() + old, entries_.begin() + old + entries_[old].size);
       return;
@@ -96,27 +98,34 @@ void FlatScene::rebuild() {
     next.push_back(old == kNew ? Entry{&node} : entries_[old]);
     if (moved) place(next.back(), above ? handDown(next[above->entry], above->child - 1) : Inherited());
     const std::uint32_t oldEnd = old == kNew ? kNew : old + entries_[old].size;
-    path.push_back({&node, entry, 0, old == kNew ? kNew : old + 1, oldEnd, moved});
+    path.push_back({&node, entry, 0, old == kNew ? kNew : old + 1, oldEnd, 0, moved});
+  };
+  const auto stepOverOld = [&](Visit& visit) {
+    visit.old += entries_[visit.old].size;
+    ++visit.oldChild;
   };
 
-  enter(root_, entries_.empty() ? kNew : 0);
+  enter(root_, entries_.empty() ? kNew : 0, false);
   while (!path.empty()) {
     Visit& visit = path.back();
     if (visit.child < visit.node->children_.size()) {
       const Node& child = *visit.node->children_[visit.child++];
       std::uint32_t old = kNew;
+      bool renumbered = false;
       if (visit.old != visit.oldEnd && child.attachment_ <= lastLook_) {
         // Children keep their order; what stands before this one's branch is gone.
         while (entries_[visit.old].node != &child) {
           dropOldBranch(visit.old);
-          visit.old += entries_[visit.old].size;
+          stepOverOld(visit);
         }
         old = visit.old;
-        visit.old += entries_[old].size;
+        const Kind kind = next[visit.entry].kind;
+        renumbered = (kind == Kind::Switch || kind == Kind::LOD) && visit.oldChild != visit.child - 1;
+        stepOverOld(visit);
       }
-      enter(child, old);
+      enter(child, old, renumbered);
     } else {
-      for (; visit.old != visit.oldEnd; visit.old += entries_[visit.old].size) dropOldBranch(visit.old);
+      for (; visit.old != visit.oldEnd; stepOverOld(visit)) dropOldBranch(visit.old);
       next[visit.entry].size = static_cast<std::uint32_t>(next.size()) - visit.entry;
       path.pop_back();
     }
@@ -136,6 +145,7 @@ FlatScene::Inherited FlatScene::handDown(const Entry& parent, std::uint32_t chil
 }
 
 void FlatScene::place(Entry& entry, const Inherited& above) {
+  ++updatedNodes_;
   entry.below = above;
   const NodeCore& core = entry.node->core();
   if (const auto* transform = dynamic_cast<const Transform*>(&core)) {

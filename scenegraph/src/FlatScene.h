@@ -87,6 +87,8 @@ class FlatScene {
   /// Brings the tables up to date; they stay as they are while the lock is held.
   [[nodiscard]] std::unique_lock<std::mutex> look();
 
+  /// How many nodes the latest look() placed anew, since they or something above them changed.
+  std::size_t updatedNodes() const { return updatedNodes_; }
   const Table<FlatObject>& objects() const { return objects_; }
   const BoxTable& boxes() const { return boxes_; }
   const Table<PlacedLight>& lights() const { return lights_; }
@@ -145,6 +147,7 @@ class FlatScene {
   std::unordered_map<const Mesh*, std::uint32_t> meshNumbers_;
   std::unordered_map<const Material*, std::uint32_t> materialNumbers_;
   bool materialsChanged_ = false;
+  std::size_t updatedNodes_ = 0;
   std::uint64_t nextSerial_ = 1;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();
 };

@@ -45,8 +45,10 @@ void Node::setCore(std::shared_ptr<const NodeCore> core) {
 
 void Node::addChild(std::shared_ptr<Node> child) {
   WEFT_EXPECT(child && !child->parent_, "a node has one parent at most");
-  for (const Node* above = this; above; above = above->parent_)
-    WEFT_EXPECT(above != child.get(), "a node is not below itself");
+  WEFT_EXPECT(child.get() != this, "a node is not below itself");
+  if (!child->children_.empty())
+    for (const Node* above = parent_; above; above = above->parent_)
+      WEFT_EXPECT(above != child.get(), "a node is not below itself");
   child->parent_ = this;
   child->attachment_ = changeClock;
   children_.push_back(std::move(child));

@@ -253,7 +253,8 @@ Result<void> RenderAction::render(GLContext& context, const Node& root, const Ca
   statistics_ = {.objects = scene.objects().used(),
                  .culled = scene.objects().used() - frame_->visible.size(),
                  .draws = frame_->commands.size(),
-                 .lights = static_cast<std::size_t>(numbers.directionalLights + numbers.placedLights)};
+                 .lights = static_cast<std::size_t>(numbers.directionalLights + numbers.placedLights),
+                 .updatedNodes = scene.updatedNodes()};
   for (const Batch& each : frame_->batches)
     for (const DrawCommand& command :
          std::span(frame_->commands).subspan(each.firstCommand, each.commandCount))

@@ -25,6 +25,9 @@ struct RenderStatistics {
   std::size_t draws = 0;         ///< within these: meshes, or groups of instances of one
   std::size_t stateChanges = 0;  ///< from one material to another
   std::size_t lights = 0;
+  /// Nodes that were looked at again: they changed since the scene was last drawn or picked from, or
+  /// something above them did. All of them in the first frame.
+  std::size_t updatedNodes = 0;
 };
 
 /// Draws a scene. One may serve many scenes, targets and contexts, one render() at a time; several may draw
