@@ -1,6 +1,7 @@
 // A matt surface: radiance = baseColor / pi x irradiance x n.l, seen alike from all sides.
 #version 450 core
 #include "lights.glsl"
+#include "environment.glsl"
 
 layout(std140, binding = 2) uniform Lambert {
   vec4 baseColor;  // linear
@@ -28,5 +29,9 @@ void main() {
     vec3 facing = lightAt(i, position, toLight);
     irradiance += facing * max(dot(n, toLight), 0.0);
   }
-  color = vec4(albedo.rgb * irradiance / 3.14159265358979, albedo.a);
+  vec3 radiance = irradiance / 3.14159265358979;
+#ifdef ENVIRONMENT
+  radiance += environmentIntensity.w * environmentIntensity.rgb * mattAround(toEnvironment(n));
+#endif
+  color = vec4(diffusePart * albedo.rgb * radiance, albedo.a);
 }

@@ -19,7 +19,21 @@ layout(std140, binding = 0) uniform Frame {
   mat4 viewProjection;
   vec4 eye;  // Camera::eye(), world space
   Light lights[maximumLights];
+  vec4 environmentRows[3];    // xyz: from world space to the environment, where there is one
+  vec4 environmentIntensity;  // rgb; w: what prefiltered values are multiplied by
 };
+
+// Which parts of what surfaces reflect are shown (RenderOptions).
+#ifdef ONLY_SPECULAR
+const float diffusePart = 0.0;
+#else
+const float diffusePart = 1.0;
+#endif
+#ifdef ONLY_DIFFUSE
+const float specularPart = 0.0;
+#else
+const float specularPart = 1.0;
+#endif
 
 // The unit direction from a world-space point towards the eye.
 vec3 toEye(vec3 point) {

@@ -1,13 +1,15 @@
-// The metallic-roughness material of glTF 2.0 (appendix B) under point and directional lights; PBRMaterial.h has the formula.
+// The metallic-roughness material of glTF 2.0 (appendix B) under point and directional lights and an environment;
+// PBRMaterial.h has the formula.
 #version 450 core
 #include "lights.glsl"
+#include "environment.glsl"
 #include "tangent_frame.glsl"
 #include "ggx.glsl"
 
 const float pi = 3.14159265358979;
 
 // Texture units, and where each texture lies.
-const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, unitCount = 4;
+const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, occlusionUnit = 4, unitCount = 5;
 
 struct Placement {
   vec4 matrix;  // 2 x 2, columns
@@ -18,7 +20,7 @@ layout(std140, binding = 2) uniform PBR {
   vec4 baseColorFactor;  // linear
   vec4 emissionFactor;   // rgb: linear; w: alpha below which ALPHA_MASK draws nothing
   vec4 fresnel;          // of the dielectric: F0; w: F90
-  vec4 factors;          // metallic, roughness, scale of the normal texture
+  vec4 factors;          // metallic, roughness, scale of the normal texture, strength of the occlusion
   vec4 normalFrame;      // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent
   Placement placements[unitCount];
 };
@@ -27,6 +29,7 @@ layout(binding = baseColorUnit) uniform sampler2D baseColorTexture;
 layout(binding = metallicRoughnessUnit) uniform sampler2D metallicRoughnessTexture;
 layout(binding = normalUnit) uniform sampler2D normalTexture;
 layout(binding = emissionUnit) uniform sampler2D emissionTexture;
+layout(binding = occlusionUnit) uniform sampler2D occlusionTexture;
 
 in vec3 position;
 in vec3 normal;
@@ -42,6 +45,7 @@ layout(location = 0) out vec4 color;
 struct Surface {
   vec3 base;
   float metallic;
+  float roughness;
   float alpha;  // of GGX
 };
 
@@ -75,7 +79,7 @@ Surface surfaceOf(vec3 base) {
   roughness *= texel.g;
 #endif
   roughness = max(roughness, 0.045);
-  return Surface(base, metallic, roughness * roughness);
+  return Surface(base, metallic, roughness, roughness * roughness);
 }
 
 // Unit; on a back face the whole mapped normal turns.
@@ -100,10 +104,35 @@ vec3 reflectance(Surface surface, vec3 n, vec3 v, vec3 l, float nl) {
   float weight = pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
   vec3 reflected = mix(fresnel.rgb, vec3(fresnel.w), weight);
   float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
-  vec3 dielectric = entering * surface.base / pi + reflected * specular;
+  specular *= specularPart;
+  vec3 dielectric = diffusePart * entering * surface.base / pi + reflected * specular;
   vec3 metal = mix(surface.base, vec3(1.0), weight) * specular;
   return mix(dielectric, metal, surface.metallic);
 }
+
+#ifdef ENVIRONMENT
+// How much of the surroundings is seen.
+float openness() {
+#ifdef OCCLUSION_TEXTURE
+  return mix(1.0, fetch(occlusionTexture, occlusionUnit).r, factors.w);
+#else
+  return 1.0;
+#endif
+}
+
+// The split sum: what the microfacets reflect in all, times the average of what they mirror. The rest enters a dielectric.
+vec3 fromEnvironment(Surface surface, vec3 n, vec3 v) {
+  float nv = dot(n, v);
+  vec2 shares = microfacetShares(clamp(abs(nv), 0.0, 1.0), surface.roughness);
+  vec3 mirrored = specularPart * glossyAround(toEnvironment(2.0 * nv * n - v), surface.roughness);
+  vec3 matt = diffusePart * mattAround(toEnvironment(n));
+  vec3 reflected = fresnel.rgb * shares.x + fresnel.w * shares.y;
+  float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
+  vec3 dielectric = entering * surface.base * matt + reflected * mirrored;
+  vec3 metal = (surface.base * shares.x + shares.y) * mirrored;
+  return openness() * environmentIntensity.w * environmentIntensity.rgb * mix(dielectric, metal, surface.metallic);
+}
+#endif
 
 vec3 lit(vec3 base) {
   Surface surface = surfaceOf(base);
@@ -115,6 +144,9 @@ vec3 lit(vec3 base) {
     float nl = dot(n, l);
     if (nl > 0.0) radiance += irradiance * nl * reflectance(surface, n, v, l, nl);
   }
+#ifdef ENVIRONMENT
+  radiance += fromEnvironment(surface, n, v);
+#endif
   return radiance;
 }
 

@@ -4,5 +4,20 @@ float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 
   vec3 d = variedDirection(light, view);
   vec4 a = layer.texels[0];
   vec2 b = layer.texels[1].xy;
-  return max(dot(a, vec4(d.x * d.x, d.y * d.y, d.x * d.y, d.x)) + b.x * d.y + b.y, 0.0);
+  // What a polynomial reflects is not told apart: it counts as diffuse.
+  return diffusePart * max(dot(a, vec4(d.x * d.x, d.y * d.y, d.x * d.y, d.x)) + b.x * d.y + b.y, 0.0);
 }
+
+#ifdef ENVIRONMENT
+void prepareEnvironment(inout EnvironmentFrame frame) {
+  fetchMoments(frame);
+}
+
+// Exact, but that it is the integral that is clamped at 0 and not the polynomial.
+vec3 underEnvironment(SharedNumbers shared_, LayerNumbers layer, vec3 view, EnvironmentFrame frame) {
+  vec4 a = layer.texels[0];
+  vec2 b = layer.texels[1].xy;
+  return diffusePart * max(a.x * frame.moments[0] + a.y * frame.moments[1] + a.z * frame.moments[2] +
+                           a.w * frame.moments[3] + b.x * frame.moments[4] + b.y * frame.moments[5], 0.0);
+}
+#endif
