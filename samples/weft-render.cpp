@@ -17,8 +17,11 @@
 #include <optional>
 #include <sstream>
 
+#include "weft/core/ToneMapping.h"
+#include "weft/io/EnvironmentFile.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/ImageFile.h"
+#include "weft/materials/ImageBasedLight.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/scene_io/BTFMaterialLoader.h"
 #include "weft/scene_io/GltfLoader.h"
@@ -40,6 +43,7 @@ constexpr int kLargestSide = 8192;
 constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
 // Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
 constexpr float kLargestNumber = 1e9f;
+constexpr double kLargestExposure = 60.0;
 const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
 // Linear; 0x28 of 255 in sRGB.
 const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
@@ -56,6 +60,12 @@ struct Arguments {
   std::string filter = "bilinear";
   std::optional<double> time;
   std::string animation;
+  std::string environment;
+  double environmentRotation = 0.0;
+  std::string environmentLobes = "fitted";
+  double exposure = 0.0;
+  std::string toneMap;
+  std::string show = "all";
   int frames = 0;
 };
 
@@ -178,6 +188,10 @@ tl::expected<Settings, std::string> readSettings(Arguments arguments) {
     return tl::unexpected<std::string>("--output must end with .png or .exr");
   if (arguments.time && !std::isfinite(*arguments.time))
     return tl::unexpected<std::string>("--time takes seconds");
+  if (!(std::abs(arguments.exposure) <= kLargestExposure))
+    return tl::unexpected(fmt::format("--exposure takes up to {} stops", kLargestExposure));
+  if (!std::isfinite(arguments.environmentRotation))
+    return tl::unexpected<std::string>("--env-rotation takes degrees");
   if (!arguments.time && !arguments.animation.empty())
     return tl::unexpected<std::string>("--animation needs a --time");
   settings.time = arguments.time;
@@ -263,9 +277,9 @@ Result<Camera> chooseCamera(const Settings& settings, const GltfScene& scene) {
 
 /// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their
 /// colour.
-void addLamps(std::vector<Settings::Lamp> lamps, const Camera& camera, GltfScene& scene) {
+void addLamps(std::vector<Settings::Lamp> lamps, bool needed, const Camera& camera, GltfScene& scene) {
   const glm::vec3 center = scene.bounds.center();
-  if (lamps.empty() && scene.lights == 0) {
+  if (lamps.empty() && needed) {
     const glm::mat3 toWorld = glm::transpose(glm::mat3(camera.view));
     lamps.push_back(
         {center + 4.0f * std::max(scene.bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
@@ -279,13 +293,30 @@ void addLamps(std::vector<Settings::Lamp> lamps, const Camera& camera, GltfScene
   }
 }
 
+/// The light of `--env`; `warnings` gets what is odd about it.
+Result<void> addEnvironment(const Arguments& arguments, Node& root, std::vector<std::string>& warnings) {
+  const std::vector<std::string> names = Environment::builtinNames();
+  const bool builtin = std::find(names.begin(), names.end(), arguments.environment) != names.end();
+  std::vector<std::string> found;
+  WEFT_TRY(const Environment environment, builtin ? Environment::builtin(arguments.environment)
+                                                  : readEnvironment(arguments.environment, found));
+  for (const std::string& warning : found) warnings.push_back(arguments.environment + ": " + warning);
+  const LobeLookup lookup = arguments.environmentLobes == "paper" ? LobeLookup::Paper : LobeLookup::Fitted;
+  // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
+  const float angle = glm::radians(-static_cast<float>(std::fmod(arguments.environmentRotation, 360.0)));
+  root.addChild(std::make_shared<Transform>(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))))
+      ->addChild(makeEnvironmentLight(environment, prefilter(environment, cacheFolder()), lookup));
+  return {};
+}
+
 /// Milliseconds of whole frames, in their order; each ends when GL has finished it.
 Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLContext& context,
-                                       const Node& root, const Camera& camera, const RenderTarget& target) {
+                                       const Node& root, const Camera& camera, const RenderTarget& target,
+                                       const RenderOptions& options) {
   std::vector<double> times;
   for (int frame = 0; frame < count; ++frame) {
     const auto start = std::chrono::steady_clock::now();
-    WEFT_TRY_VOID(renderer.render(context, root, camera, target));
+    WEFT_TRY_VOID(renderer.render(context, root, camera, target, options));
     glFinish();
     times.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
@@ -303,6 +334,15 @@ nlohmann::ordered_json timesAsJson(std::vector<double> times) {
   return {{"median", times[times.size() / 2]}, {"min", times.front()}, {"max", times.back()}};
 }
 
+ReflectedPart partOf(const std::string& show) {
+  if (show == "diffuse") return ReflectedPart::Diffuse;
+  return show == "specular" ? ReflectedPart::Specular : ReflectedPart::All;
+}
+
+ToneCurve curveOf(const std::string& name, bool softUnasked) {
+  return name == "soft" || (name.empty() && softUnasked) ? ToneCurve::Soft : ToneCurve::None;
+}
+
 Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   const auto settings = readSettings(arguments);
   if (!settings) return tool.badUsage(settings.error());
@@ -311,21 +351,27 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
                                  .interpolatedViews = arguments.views,
                                  .filter = arguments.filter == "nearest" ? TexelFilter::Nearest
                                                                          : TexelFilter::Bilinear}));
-  if (!tool.quiet())
-    for (const std::string& warning : scene.warnings)
-      fmt::print(stderr, "weft-render: {}: {}\n", settings->scene, warning);
+  std::vector<std::string> warnings;
+  for (const std::string& warning : scene.warnings)
+    warnings.push_back(fmt::format("{}: {}", settings->scene, warning));
   WEFT_TRY(const Camera camera, chooseCamera(*settings, scene));
-  addLamps(settings->lamps, camera, scene);
+  const bool lit = !arguments.environment.empty();
+  if (lit) WEFT_TRY_VOID(addEnvironment(arguments, *scene.root, warnings));
+  addLamps(settings->lamps, !lit && scene.lights == 0, camera, scene);
+  if (!tool.quiet())
+    for (const std::string& warning : warnings) fmt::print(stderr, "weft-render: {}\n", warning);
 
   WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
   GLContext& context = window->context();
   RenderAction renderer;
   const bool png = arguments.output.ends_with(".png");
   const RenderTarget target(kSupersampling * settings->width, kSupersampling * settings->height,
-                            png ? Precision::Half : Precision::Float);
-  WEFT_TRY_VOID(
-      renderer.render(context, *scene.root, camera, target, {png ? kPictureBackground : glm::vec4(0.0f)}));
-  WEFT_TRY_VOID(writePicture(arguments.output, target.read(context, kSupersampling)));
+                            png && !lit ? Precision::Half : Precision::Float);  // the sun overflows halfs
+  const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
+  WEFT_TRY_VOID(renderer.render(context, *scene.root, camera, target, options));
+  FloatImage picture = target.read(context, kSupersampling);
+  expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
+  WEFT_TRY_VOID(writePicture(arguments.output, picture));
 
   nlohmann::ordered_json report{{"scene", settings->scene},
                                 {"output", arguments.output},
@@ -334,13 +380,14 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
                                 {"views", arguments.views},
                                 {"filter", arguments.filter},
                                 {"materials", scene.materials},
-                                {"warnings", scene.warnings},
+                                {"environment", arguments.environment},
+                                {"warnings", warnings},
                                 {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
   if (arguments.frames > 0) {
     const RenderTarget timed(settings->width, settings->height);
-    WEFT_TRY_VOID(timeFrames(1, renderer, context, *scene.root, camera, timed));  // makes the target
+    WEFT_TRY_VOID(timeFrames(1, renderer, context, *scene.root, camera, timed, options));  // makes the target
     WEFT_TRY(std::vector<double> times,
-             timeFrames(arguments.frames, renderer, context, *scene.root, camera, timed));
+             timeFrames(arguments.frames, renderer, context, *scene.root, camera, timed, options));
     report["frames"] = arguments.frames;
     report["frame_ms"] = timesAsJson(std::move(times));
   }
@@ -389,6 +436,31 @@ int main(int argc, char** argv) {
           "--filter", arguments.filter,
           "what is between texels: nearest, or bilinear, which is smooth and costs four times as much")
       ->check(CLI::IsMember({"nearest", "bilinear"}))
+      ->capture_default_str();
+  options.add_option("--env", arguments.environment,
+                     "light from all sides, and background: an equirectangular .hdr or .exr, or the built-in "
+                     "studio or sky; together with lights that are asked for or the file's");
+  options.add_option("--env-rotation", arguments.environmentRotation,
+                     "degrees by which the environment turns around Y, clockwise seen from above; at 0 its "
+                     "middle lies along -Z");
+  options
+      .add_option("--env-lobes", arguments.environmentLobes,
+                  "how lobes gather its light: fitted, or paper, as Meseth et al. do, for comparison")
+      ->check(CLI::IsMember({"fitted", "paper"}))
+      ->capture_default_str();
+  options
+      .add_option("--exposure", arguments.exposure, "stops: the picture is multiplied by 2 to their power")
+      ->capture_default_str();
+  options
+      .add_option("--tone-map", arguments.toneMap,
+                  "none, or soft: what is brighter than 0.8 is compressed below 1; default: soft for a .png "
+                  "with --env, else none")
+      ->check(CLI::IsMember({"none", "soft"}));
+  options
+      .add_option("--show", arguments.show,
+                  "what surfaces reflect: all, or its diffuse or specular part alone (a polynomial counts as "
+                  "diffuse)")
+      ->check(CLI::IsMember({"all", "diffuse", "specular"}))
       ->capture_default_str();
   options.add_option("--time", arguments.time,
                      "shows the scene so many seconds after the start of its animation");

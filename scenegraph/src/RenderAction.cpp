@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "DrawList.h"
@@ -13,6 +14,7 @@
 #include "FrameBlock.h"
 #include "MeshPool.h"
 #include "weft/chunks/GLName.h"
+#include "weft/scenegraph/EnvironmentLight.h"
 
 namespace weft {
 
@@ -23,6 +25,7 @@ struct FrameObjects {
   GLBuffer frame;
   GLBuffer models;
   GLBuffer commands;
+  GLVertexArray noVertices;
 };
 
 /// Where a scene's meshes lie in a context, by their number in the scene.
@@ -86,26 +89,46 @@ LightBlock blockOf(const PlacedLight& light) {
 struct FrameNumbers {
   FrameBlock block;
   int directionalLights = 0, placedLights = 0;
+  const EnvironmentLight* environment = nullptr;
 
-  ShaderDefines defines() const {
-    return {{"DIRECTIONAL_LIGHTS", fmt::to_string(directionalLights)},
-            {"PLACED_LIGHTS", fmt::to_string(placedLights)}};
+  ShaderDefines defines(ReflectedPart part) const {
+    ShaderDefines defines{{"DIRECTIONAL_LIGHTS", fmt::to_string(directionalLights)},
+                          {"PLACED_LIGHTS", fmt::to_string(placedLights)}};
+    if (environment)
+      defines.insert(defines.end(), environment->defines().begin(), environment->defines().end());
+    if (part == ReflectedPart::Diffuse) defines.emplace_back("ONLY_DIFFUSE", "");
+    if (part == ReflectedPart::Specular) defines.emplace_back("ONLY_SPECULAR", "");
+    return defines;
   }
 };
 
+void setEnvironment(FrameBlock& block, const EnvironmentLight& environment, const glm::mat4& toWorld) {
+  // The columns of a rotation are the rows of its inverse; scale does not move what is infinitely far away.
+  for (int i = 0; i < 3; ++i)
+    block.environmentRows[static_cast<std::size_t>(i)] = glm::vec4(unitOrZero(glm::vec3(toWorld[i])), 0.0f);
+  block.environmentIntensity = glm::vec4(environment.intensity, environment.scale());
+}
+
 Result<FrameNumbers> frameNumbers(const FlatScene& scene, const Camera& camera,
                                   const glm::mat4& viewProjection) {
+  FrameNumbers numbers{{viewProjection, camera.eye(), {}}};
   std::vector<LightBlock> directional, placed;
-  for (const PlacedLight& light : scene.lights().all())
-    if (light.core && scene.shows(light.level, camera.position()))
+  for (const PlacedLight& light : scene.lights().all()) {
+    if (!light.core || !scene.shows(light.level, camera.position())) continue;
+    if (const auto* environment = dynamic_cast<const EnvironmentLight*>(light.core)) {
+      if (numbers.environment) return fail("the scene has more than one environment");
+      numbers.environment = environment;
+      setEnvironment(numbers.block, *environment, light.toWorld);
+    } else {
       (dynamic_cast<const DirectionalLight*>(light.core) ? directional : placed).push_back(blockOf(light));
+    }
+  }
   const std::size_t count = directional.size() + placed.size();
   if (count > kMaximumLights)
     return fail(fmt::format("the scene has {} lights, at most {} can be drawn", count, kMaximumLights));
 
-  FrameNumbers numbers{{viewProjection, camera.eye(), {}},
-                       static_cast<int>(directional.size()),
-                       static_cast<int>(placed.size())};
+  numbers.directionalLights = static_cast<int>(directional.size());
+  numbers.placedLights = static_cast<int>(placed.size());
   std::copy(placed.begin(), placed.end(),
             std::copy(directional.begin(), directional.end(), numbers.block.lights.begin()));
   return numbers;
@@ -138,8 +161,8 @@ struct RenderAction::Frame {
   void findVisible(const FlatScene& scene, const Camera& camera, const glm::mat4& viewProjection);
   void sort(GLContext& context, const FlatScene& scene, const Camera& camera);
   void batch(GLContext& context, const FlatScene& scene);
-  void draw(GLContext& context, const FlatScene& scene, const FrameObjects& objects,
-            RenderStatistics& statistics) const;
+  void draw(GLContext& context, const FlatScene& scene, FrameObjects& objects,
+            const EnvironmentLight* environment, RenderStatistics& statistics) const;
 };
 
 void RenderAction::Frame::findVisible(const FlatScene& scene, const Camera& camera,
@@ -198,15 +221,40 @@ void RenderAction::Frame::batch(GLContext& context, const FlatScene& scene) {
   }
 }
 
-void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, const FrameObjects& objects,
-                               RenderStatistics& statistics) const {
+namespace {
+
+/// Changes GL to the state of what fills the picture, and draws that.
+void drawBackground(GLContext& context, const State& state, const State& active, FrameObjects& objects) {
+  state.changeFrom(context, active);
+  if (context.failed()) return;
+  if (!objects.noVertices) objects.noVertices = createGL<GLVertexArray>(glCreateVertexArrays);
+  glBindVertexArray(objects.noVertices);
+  glFrontFace(GL_CCW);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace
+
+void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, FrameObjects& objects,
+                               const EnvironmentLight* environment, RenderStatistics& statistics) const {
   const State defaults;
   const State* active = &defaults;
+  const State* background =
+      environment && environment->showsBackground ? &environment->background()->state() : nullptr;
   const MeshPage* page = nullptr;
   glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, objects.frame);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, objects.commands);
+  if (environment) environment->lighting().activate(context);
+  const auto finishBackground = [&] {
+    if (!background) return;
+    drawBackground(context, *background, *active, objects);
+    active = std::exchange(background, nullptr);
+    page = nullptr;
+  };
   for (const Batch& each : batches) {
-    const State& state = scene.materials()[each.material].material->state();
+    const UsedMaterial& material = scene.materials()[each.material];
+    if (material.blended) finishBackground();  // it shines through
+    const State& state = material.material->state();
     if (&state != active) {
       state.changeFrom(context, *active);
       active = &state;
@@ -224,7 +272,9 @@ void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, const
                                 static_cast<GLsizei>(each.commandCount), 0);
     ++statistics.drawCalls;
   }
+  if (!context.failed()) finishBackground();
   active->deactivate(context);
+  if (environment) environment->lighting().deactivate(context);
   glFrontFace(GL_CCW);
   glBindVertexArray(0);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
@@ -262,13 +312,13 @@ Result<void> RenderAction::render(GLContext& context, const Node& root, const Ca
 
   auto& objects = context.objectsOf<FrameObjects>(owner_);
   fill(objects.frame, &numbers.block, sizeof numbers.block);
-  context.setProgramDefines(numbers.defines());
+  context.setProgramDefines(numbers.defines(options.part));
   if (!frame_->models.empty()) {
     fill(objects.models, frame_->models.data(), frame_->models.size() * sizeof(ModelRows));
     fill(objects.commands, frame_->commands.data(), frame_->commands.size() * sizeof(DrawCommand));
   }
   target.bindAndClear(context, options.background);
-  if (!context.failed()) frame_->draw(context, scene, objects, statistics_);
+  if (!context.failed()) frame_->draw(context, scene, objects, numbers.environment, statistics_);
   RenderTarget::unbind();
   return context.takeErrors();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "weft/chunks/CubeTextureChunk.h"
 #include "weft/chunks/ProgramChunk.h"
@@ -21,6 +22,8 @@ struct FieldBlock {
   glm::vec2 textureScale;
   float lowestLightZ;
   float lowestViewZ;
+  float quadratureExponent;
+  float unused[3] = {};
 };
 
 // Channels `first`.. of a layer of `from`, four a texel, into layers `layer`.. of `to`.
@@ -88,6 +91,7 @@ ShaderSource sourceFor(const ReflectanceField& field, const BTFMaterialOptions& 
   if (model.layerDirections() == LayerDirections::Lights)
     source.defines.emplace_back("LAYERS_ARE_LIGHTS", "");
   if (field.description().hasCosine) source.defines.emplace_back("MODEL_HAS_COSINE", "");
+  if (!field.formula().integratesEnvironments()) source.defines.emplace_back("ENVIRONMENT_BY_QUADRATURE", "");
   if (options.interpolatedViews == 1) source.defines.emplace_back("NEAREST_LAYER", "");
   if (options.filter == TexelFilter::Bilinear) source.defines.emplace_back("BILINEAR", "");
   source.includeAliases["model.glsl"] = model.shaderFile();
@@ -104,6 +108,17 @@ void setLayerChunks(BTFMaterial& material, const ReflectanceField& field) {
   material.setChunk(textureSlot(3),
                     std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(lookup.triangles),
                                                    TextureOptions{.shape = TextureShape::Rectangle}));
+}
+
+// A texel a node: the light, and its weight.
+std::shared_ptr<const FloatImage> nodesOf(const LightQuadrature& quadrature) {
+  auto nodes = std::make_shared<FloatImage>(static_cast<int>(quadrature.nodes.size()), 1,
+                                            std::vector<std::string>{"x", "y", "z", "w"});
+  for (int i = 0; i < nodes->width(); ++i) {
+    const auto& [light, weight] = quadrature.nodes[static_cast<std::size_t>(i)];
+    std::ranges::copy(std::array{light.x, light.y, light.z, weight}, nodes->texel(i, 0).begin());
+  }
+  return nodes;
 }
 
 }  // namespace
@@ -126,10 +141,14 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
   if (layers > 0) setLayerChunks(*material, *field);
   material->setChunk(textureSlot(1), std::make_shared<TextureChunk>(
                                          packedShared(*field), TextureOptions{.shape = TextureShape::Array}));
-  material->setChunk(
-      uniformSlot(2),
-      std::make_shared<UniformBlockChunk>(blockBytes(FieldBlock{
-          options.textureScale, field->formula().lowestLightZ(), field->formula().lowestViewZ()})));
+  material->setChunk(uniformSlot(2),
+                     std::make_shared<UniformBlockChunk>(blockBytes(FieldBlock{
+                         options.textureScale, field->formula().lowestLightZ(),
+                         field->formula().lowestViewZ(), field->formula().quadrature().exponent})));
+  if (!field->formula().integratesEnvironments())
+    material->setChunk(textureSlot(4),
+                       std::make_shared<TextureChunk>(nodesOf(field->formula().quadrature()),
+                                                      TextureOptions{.shape = TextureShape::Rectangle}));
   if (options.doubleSided) material->setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
   return material;
 }

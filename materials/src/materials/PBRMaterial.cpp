@@ -16,7 +16,14 @@ namespace weft {
 namespace {
 
 // The textures of pbr.frag: texture units, and indices of the block's placements.
-enum Unit : unsigned { BaseColorUnit, MetallicRoughnessUnit, NormalUnit, EmissionUnit, UnitCount };
+enum Unit : unsigned {
+  BaseColorUnit,
+  MetallicRoughnessUnit,
+  NormalUnit,
+  EmissionUnit,
+  OcclusionUnit,
+  UnitCount
+};
 
 // The block `PBR` of pbr.frag, std140.
 struct PlacementBlock {
@@ -27,7 +34,7 @@ struct PBRBlock {
   glm::vec4 baseColor;
   glm::vec4 emission;      ///< rgb, w: alpha cutoff
   glm::vec4 fresnel;       ///< of the dielectric: F0, w: F90
-  glm::vec4 factors;       ///< metallic, roughness, normal scale
+  glm::vec4 factors;       ///< metallic, roughness, normal scale, occlusion strength
   glm::vec4 tangentFrame;  ///< of the normal texture, columns
   std::array<PlacementBlock, UnitCount> placements;
 };
@@ -44,10 +51,11 @@ PBRBlock blockOf(const PBROptions& options) {
   return {options.baseColor,
           {options.emission, options.alphaCutoff},
           {f0, options.specular},
-          {options.metallic, options.roughness, options.normalScale, 0.0f},
+          {options.metallic, options.roughness, options.normalScale, options.occlusionStrength},
           {frame[0], frame[1]},
           {blockOf(options.baseColorTexture.placement), blockOf(options.metallicRoughnessTexture.placement),
-           blockOf(options.normalTexture.placement), blockOf(options.emissionTexture.placement)}};
+           blockOf(options.normalTexture.placement), blockOf(options.emissionTexture.placement),
+           blockOf(options.occlusionTexture.placement)}};
 }
 
 }  // namespace
@@ -81,6 +89,7 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
   } else {
     add(MetallicRoughnessUnit, options.metallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE");
     add(NormalUnit, options.normalTexture, "NORMAL_TEXTURE");
+    add(OcclusionUnit, options.occlusionTexture, "OCCLUSION_TEXTURE");
   }
   if (options.alphaMode == AlphaMode::Mask) define("ALPHA_MASK");
   if (options.alphaMode == AlphaMode::Blend) {

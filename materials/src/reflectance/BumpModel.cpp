@@ -42,4 +42,13 @@ float BumpModel::evaluate(std::span<const float> shared, std::span<const float>,
   return nl * ((1.0f - reflected) * shared[0] + reflected * microfacets(shared[3] * shared[3], n, h, nl, nv));
 }
 
+// The split sum, as of glTF's materials (pbr.frag), around the texel's own normal.
+glm::vec3 BumpModel::underEnvironment(std::span<const float> shared, std::span<const float>, glm::vec3 view,
+                                      const SurfaceLight& light) const {
+  constexpr float kF0 = 0.04f;
+  const glm::vec3 n = directionFromParabolic({shared[1], shared[2]});
+  return (1.0f - light.glossyShare(n, view, shared[3], kF0)) * shared[0] * light.matt(n) +
+         light.glossy(n, view, shared[3], kF0);
+}
+
 }  // namespace weft

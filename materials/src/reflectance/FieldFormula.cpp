@@ -52,6 +52,9 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
     WEFT_TRY(formula.triangulation_, HemisphereTriangulation::create(directions));
     formula.layerCount_ = static_cast<int>(directions.size());
   }
+  if (!model->integratesEnvironments() || description.encoding != Encoding::Linear ||
+      description.hasCosine != model->containsCosine())
+    formula.quadrature_ = LightQuadrature::create(description.lights);
   formula.model_ = std::move(model);
   formula.hasCosine_ = description.hasCosine;
   formula.encoding_ = description.encoding;
@@ -85,6 +88,11 @@ void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const
   model_->evaluateColors(shared, layer, modelled, notBelow(view, lowestViewZ_), values);
   for (std::size_t i = 0; i < lights.size(); ++i)
     values[i] = factors[i] * (encoding_ == Encoding::Linear ? values[i] : decode(encoding_, values[i]));
+}
+
+glm::vec3 FieldFormula::underEnvironment(std::span<const float> shared, std::span<const float> layer,
+                                         glm::vec3 view, const SurfaceLight& light) const {
+  return model_->colorUnderEnvironment(shared, layer, notBelow(view, lowestViewZ_), light);
 }
 
 DirectionWeights FieldFormula::layersAround(glm::vec3 light, glm::vec3 view) const {

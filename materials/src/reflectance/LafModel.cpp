@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace weft {
@@ -42,6 +43,20 @@ float LafModel::evaluate(std::span<const float> shared, std::span<const float> l
   }
   if (hasViewFactor()) value *= layer[0];
   return std::max(value, 0.0f);
+}
+
+// (C . (l v))^n = |t|^n (t . l / |t|)^n with t = C v: lobes of the light as those of `rfnl`.
+glm::vec3 LafModel::underEnvironment(std::span<const float> shared, std::span<const float> layer,
+                                     glm::vec3 view, const SurfaceLight& light) const {
+  glm::vec3 value = shared[0] * light.matt({0, 0, 1});
+  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+    const auto lobe = shared.subspan(1 + 4 * j, 4);
+    const glm::vec3 t = lafAxes({lobe[1], lobe[2]}) * view;
+    const float size = glm::length(t);
+    if (size > 0.0f) value += lobe[0] * std::pow(size, lobe[3]) * light.lobe(t / size, lobe[3]);
+  }
+  if (hasViewFactor()) value *= layer[0];
+  return glm::max(value, 0.0f);
 }
 
 std::map<std::string, std::string> LafModel::shaderDefines() const {

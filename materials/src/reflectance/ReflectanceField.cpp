@@ -55,4 +55,23 @@ glm::vec3 ReflectanceField::evaluate(int x, int y, glm::vec3 light, glm::vec3 vi
   return evaluate(x, y, formula_.layersAround(light, view), light, view);
 }
 
+glm::vec3 ReflectanceField::underEnvironment(int x, int y, glm::vec3 view, const SurfaceLight& light) const {
+  glm::vec3 sum(0.0f);
+  if (!formula_.integratesEnvironments()) {
+    const LightQuadrature& quadrature = formula_.quadrature();
+    for (const LightQuadrature::Node& node : quadrature.nodes)
+      sum += node.weight / node.light.z * light.average(node.light, quadrature.exponent) *
+             evaluate(x, y, node.light, view);
+    return sum;
+  }
+  const DirectionWeights layers = formula_.layersAround({0, 0, 1}, view);
+  for (int k = 0; k < 3; ++k)
+    if (layers.weight[k] > 0.0f)
+      sum += layers.weight[k] *
+             formula_.underEnvironment(shared_.texel(x, y),
+                                       layers_.texel(x, y, layers.index[static_cast<std::size_t>(k)]), view,
+                                       light);
+  return sum;
+}
+
 }  // namespace weft

@@ -1,5 +1,7 @@
 #include "weft/reflectance/ReflectanceModel.h"
 
+#include "weft/core/Contract.h"
+
 namespace weft {
 namespace {
 
@@ -40,6 +42,11 @@ glm::vec3 ReflectanceModel::evaluateColor(std::span<const float> shared, std::sp
   return color * baseColor;
 }
 
+glm::vec3 ReflectanceModel::underEnvironment(std::span<const float>, std::span<const float>, glm::vec3,
+                                             const SurfaceLight&) const {
+  contractBroken(__FILE__, __LINE__, "the model integrates environments");
+}
+
 void ReflectanceModel::evaluateLights(std::span<const float> shared, std::span<const float> layer,
                                       std::span<const glm::vec3> lights, glm::vec3 view,
                                       std::span<float> values) const {
@@ -63,6 +70,24 @@ void ReflectanceModel::evaluateColors(std::span<const float> shared, std::span<c
       else
         colors[i][static_cast<int>(c)] = values[i] * baseColor[static_cast<int>(c)];
   }
+}
+
+glm::vec3 ReflectanceModel::colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer,
+                                                  glm::vec3 view, const SurfaceLight& light) const {
+  const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
+  const auto channels = static_cast<std::size_t>(colorChannels());
+  const std::size_t sharedCount = (shared.size() - 3) / channels;
+  const std::size_t layerCount = layer.size() / channels;
+  glm::vec3 value(0.0f);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const glm::vec3 ofChannel = underEnvironment(shared.subspan(3 + c * sharedCount, sharedCount),
+                                                 layer.subspan(c * layerCount, layerCount), view, light);
+    if (channels == 1)
+      value = ofChannel;
+    else
+      value[static_cast<int>(c)] = ofChannel[static_cast<int>(c)];
+  }
+  return value * baseColor;
 }
 
 int sharedTexels(const ReflectanceModel& model) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "weft/core/Direction.h"
@@ -56,6 +57,17 @@ void RfnlModel::evaluateLights(std::span<const float> shared, std::span<const fl
     }
   }
   for (float& value : values) value = std::max(value, 0.0f);
+}
+
+// Paper M 5.2.
+glm::vec3 RfnlModel::underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3,
+                                      const SurfaceLight& light) const {
+  glm::vec3 value = diffuseAlbedoOf(shared, layer) * light.matt({0, 0, 1});
+  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+    const auto lobe = layer.subspan(4 * j, 4);
+    if (lobe[0] != 0.0f) value += lobe[0] * light.lobe(directionFromParabolic({lobe[1], lobe[2]}), lobe[3]);
+  }
+  return glm::max(value, 0.0f);
 }
 
 std::map<std::string, std::string> RfnlModel::shaderDefines() const {

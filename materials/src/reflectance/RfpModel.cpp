@@ -1,6 +1,7 @@
 #include "weft/reflectance/RfpModel.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 namespace weft {
 namespace {
@@ -29,6 +30,15 @@ std::vector<std::string> RfpModel::layerNumbers() const {
 float RfpModel::evaluate(std::span<const float>, std::span<const float> a, glm::vec3 light,
                          glm::vec3 view) const {
   return polynomial(a, variedDirection(light, view));
+}
+
+// Exact, but that it is the integral that is clamped and not the polynomial.
+glm::vec3 RfpModel::underEnvironment(std::span<const float>, std::span<const float> a, glm::vec3,
+                                     const SurfaceLight& light) const {
+  const std::array<glm::vec3, 6> moments = light.moments();
+  glm::vec3 value(0.0f);
+  for (std::size_t i = 0; i < 6; ++i) value += a[i] * moments[i];
+  return glm::max(value, 0.0f);
 }
 
 void RfpModel::evaluateLights(std::span<const float>, std::span<const float> a,

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -49,26 +48,27 @@ TEST_P(Prefiltered, EqualsSumsOverAllTexels) {
     for (const int layer : {0, 1, 4, 13, 20, 28, 32}) {
       SCOPED_TRACE(layer);
       const double n = std::exp2(layer / 4.0);
-      expectClose(texelOf(filtered.lobes, texel.x, texel.y, layer, filtered.scale),
-                  (n + 1.0) / (2.0 * kPi) *
-                      integral(environment,
-                               [&](glm::vec3 l) { return std::pow(std::max(glm::dot(t, l), 0.0f), n); }),
-                  2e-3, 4e-3 * mean);
+      expectClose(
+          texelOf(filtered.lobes, texel.x, texel.y, layer, filtered.scale),
+          (n + 1.0) / (2.0 * kPi) *
+              integral(environment, [&](glm::vec3 l) { return std::pow(std::max(glm::dot(t, l), 0.0f), n); }),
+          2e-3, 4e-3 * mean);
     }
     const std::function<double(glm::vec3)> weights[] = {
-        [](glm::vec3) { return 1.0; },       [](glm::vec3 l) { return l.x; },
-        [](glm::vec3 l) { return l.y; },     [](glm::vec3 l) { return l.z; },
+        [](glm::vec3) { return 1.0; },         [](glm::vec3 l) { return l.x; },
+        [](glm::vec3 l) { return l.y; },       [](glm::vec3 l) { return l.z; },
         [](glm::vec3 l) { return l.x * l.x; }, [](glm::vec3 l) { return l.y * l.y; },
         [](glm::vec3 l) { return l.z * l.z; }, [](glm::vec3 l) { return l.x * l.y; },
         [](glm::vec3 l) { return l.x * l.z; }, [](glm::vec3 l) { return l.y * l.z; }};
     for (int layer = 0; layer < PrefilteredEnvironment::kMomentLayers; ++layer) {
       SCOPED_TRACE(layer);
       expectClose(texelOf(filtered.moments, texel.x, texel.y, layer, filtered.scale),
-                  1.0 / kPi * integral(environment,
-                                       [&](glm::vec3 l) {
-                                         return std::max(glm::dot(t, l), 0.0f) *
-                                                weights[static_cast<std::size_t>(layer)](l);
-                                       }),
+                  1.0 / kPi *
+                      integral(environment,
+                               [&](glm::vec3 l) {
+                                 return std::max(glm::dot(t, l), 0.0f) *
+                                        weights[static_cast<std::size_t>(layer)](l);
+                               }),
                   2e-3, 4e-3 * mean);
     }
   }
@@ -83,9 +83,6 @@ TEST_P(Prefiltered, EqualsSumsOverAllTexels) {
         const double h = 0.5 * (1.0 + cosine);  // cosine of half the angle, squared
         return cosine > 0.0 ? cosine / std::pow(h * (squared - 1.0) + 1.0, 2.0) : 0.0;
       };
-      // Texels of 2.8 degrees do not show the kernel's peak where it is narrower.
-      const double whole = integral(Environment::constant(glm::vec3(1.0f)).reduced(2, 1), kernel).x;
-      (void)whole;
       double norm = 0.0;
       for (int i = 0; i < 20000; ++i) {
         const double angle = 0.5 * kPi * (i + 0.5) / 20000;
@@ -100,15 +97,6 @@ TEST_P(Prefiltered, EqualsSumsOverAllTexels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, Prefiltered, testing::Values("studio", "sky"));
-
-TEST(PrefilteredEnvironment, TakesAMomentOfALargePicture) {
-  const Environment environment = valueOf(Environment::builtin("sky"));
-  const auto start = std::chrono::steady_clock::now();
-  const PrefilteredEnvironment filtered = PrefilteredEnvironment::create(environment);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  RecordProperty("seconds", std::to_string(seconds));
-  std::printf("[          ] %.2f s\n", seconds);
-}
 
 }  // namespace
 }  // namespace weft::test

@@ -26,10 +26,10 @@ struct BTFMaterialOptions {
 };
 
 /// A measured material, rendered from its reflectance field under point and directional lights (paper M 5.1
-/// and 5.4): chunks for the parameters, the view lookup and the program.
+/// and 5.4) and an environment (5.2): chunks for the parameters, the view lookup and the program.
 ///
 /// Needs meshes with texture coordinates and tangents; the texture repeats. GLSL: shaders/btf.frag, which
-/// computes what ReflectanceField::evaluate() does.
+/// computes what ReflectanceField::evaluate() and underEnvironment() do.
 class BTFMaterial : public ChunkMaterial {
  public:
   /// Fails on options that are none, and where the views do not fit into one array texture of 2,048 layers,

@@ -49,8 +49,7 @@ struct PBROptions {
   PBRTexture metallicRoughnessTexture{};  ///< g: roughness, b: metallic
   PBRTexture normalTexture{};             ///< in the tangent frame of its texture coordinates, y up the image
   float normalScale = 1.0f;               ///< of its x and y
-  /// r: how much of the surroundings a point sees. Point and directional lights are not surroundings, so that
-  /// nothing shows it under them (glTF 3.9.3); it is kept for light from an environment.
+  /// r: how much of the surroundings a point sees: of light from an environment alone (glTF 3.9.3).
   PBRTexture occlusionTexture{};
   float occlusionStrength = 1.0f;
   glm::vec3 emission{0.0f};      ///< radiance, beyond 1 with KHR_materials_emissive_strength
@@ -65,12 +64,13 @@ struct PBROptions {
 };
 
 /// A surface as nearly every glTF file describes it (glTF 2.0, appendix B): a matt dielectric below GGX
-/// microfacets, mixed with a metal, under point and directional lights.
+/// microfacets, mixed with a metal, under point and directional lights and an environment.
 ///
 /// Multiplies by the mesh's vertex colours. Numbers must be finite, factors within 0..1. The formula:
 /// specular = D V with GGX and Smith's height-correlated shadowing; metal = specular mix(base, 1, w);
 /// dielectric = (1 - max F) base / pi + F specular with F = mix(F0, F90, w), w = (1 - v.h)^5; mixed by
-/// `metallic`. GLSL: shaders/pbr.frag.
+/// `metallic`. Under an environment specular becomes a split sum: MicrofacetTable times the average of what
+/// the microfacets mirror. GLSL: shaders/pbr.frag.
 class PBRMaterial : public ChunkMaterial {
  public:
   explicit PBRMaterial(const PBROptions& options = {});

@@ -22,6 +22,9 @@ class BumpModel : public ReflectanceModel {
   std::vector<std::string> sharedNumbers() const override { return {"albedo", "px", "py", "roughness"}; }
   float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                  glm::vec3 view) const override;
+  bool integratesEnvironments() const override { return true; }
+  glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
+                             const SurfaceLight& light) const override;
   std::string shaderFile() const override { return "bump.glsl"; }
 };
 

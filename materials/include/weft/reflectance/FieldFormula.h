@@ -55,6 +55,12 @@ class FieldFormula {
   /// The same for many lights and one view.
   void evaluateLights(std::span<const float> shared, std::span<const float> layer,
                       std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> values) const;
+  /// Whether light of an environment is integrated by the model's own formula; else quadrature() is summed.
+  bool integratesEnvironments() const { return quadrature_.nodes.empty(); }
+  const LightQuadrature& quadrature() const { return quadrature_; }
+  /// What one layer shows of an environment, by the model's formula.
+  glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
+                             const SurfaceLight& light) const;
   /// The layers to interpolate, and their weights.
   DirectionWeights layersAround(glm::vec3 light, glm::vec3 view) const;
 
@@ -68,6 +74,7 @@ class FieldFormula {
   Encoding encoding_ = Encoding::Linear;
   float lowestLightZ_ = 0.0f;
   float lowestViewZ_ = 0.0f;
+  LightQuadrature quadrature_;  ///< empty where it is not needed
 };
 
 }  // namespace weft

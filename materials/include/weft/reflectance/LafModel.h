@@ -28,6 +28,9 @@ class LafModel : public ReflectanceModel {
   std::vector<std::string> layerNumbers() const override;
   float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                  glm::vec3 view) const override;
+  bool integratesEnvironments() const override { return true; }
+  glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
+                             const SurfaceLight& light) const override;
   std::string shaderFile() const override { return "laf.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 

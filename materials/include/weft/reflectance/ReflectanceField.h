@@ -39,6 +39,8 @@ class ReflectanceField {
   glm::vec3 evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const;
   /// The same between the layers around the directions.
   glm::vec3 evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const;
+  /// What one texel shows of an environment, radiance: the CPU reference of shaders/btf.frag.
+  glm::vec3 underEnvironment(int x, int y, glm::vec3 view, const SurfaceLight& light) const;
 
  private:
   explicit ReflectanceField(FieldFormula formula) : formula_(std::move(formula)) {}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "weft/core/Result.h"
+#include "weft/reflectance/SurfaceLight.h"
 
 namespace weft {
 
@@ -62,6 +63,13 @@ class ReflectanceModel {
   virtual void evaluateLights(std::span<const float> shared, std::span<const float> layer,
                               std::span<const glm::vec3> lights, glm::vec3 view,
                               std::span<float> values) const;
+  /// Whether underEnvironment() and the GLSL function of the same name exist. Fields of other models are
+  /// summed over their measured lights (LightQuadrature).
+  virtual bool integratesEnvironments() const { return false; }
+  /// What evaluate(), times n.l unless it contains that, shows of an environment; in the units of
+  /// SurfaceLight.
+  virtual glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer,
+                                     glm::vec3 view, const SurfaceLight& light) const;
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
   virtual std::map<std::string, std::string> shaderDefines() const { return {}; }
@@ -79,6 +87,9 @@ class ReflectanceModel {
   /// The same for many lights and one view.
   void evaluateColors(std::span<const float> shared, std::span<const float> layer,
                       std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> colors) const;
+  /// underEnvironment() likewise: each colour channel of a fit in RGB has numbers of its own.
+  glm::vec3 colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
+                                  const SurfaceLight& light) const;
 
  protected:
   /// The direction that varies within a layer.

@@ -28,6 +28,9 @@ class RfnlModel : public ReflectanceModel {
   void evaluateLights(std::span<const float> shared, std::span<const float> layer,
                       std::span<const glm::vec3> lights, glm::vec3 view,
                       std::span<float> values) const override;
+  bool integratesEnvironments() const override { return layerDirections_ == LayerDirections::Views; }
+  glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
+                             const SurfaceLight& light) const override;
   std::string shaderFile() const override { return "rfnl.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 

@@ -12,8 +12,13 @@
 
 namespace weft {
 
+/// Which part of what surfaces reflect is shown: paper M fig. 6 shows them apart. Matt is what the models
+/// call diffuse, and all of a polynomial.
+enum class ReflectedPart { All, Diffuse, Specular };
+
 struct RenderOptions {
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};  ///< linear RGBA
+  ReflectedPart part = ReflectedPart::All;
 };
 
 /// What one frame did.
@@ -40,8 +45,9 @@ class RenderAction {
   RenderAction& operator=(RenderAction&&) noexcept;
 
   /// Draws everything below `root` as the camera sees it, lit by the lights below `root`, and leaves GL as it
-  /// starts up, but for the viewport. Fails on more than 16 lights, on a geometry without a material, and on
-  /// whatever was reported to the context: a shader that does not compile, an image too large.
+  /// starts up, but for the viewport. Fails on more than 16 lights or one environment, on a geometry without
+  /// a material, and on whatever was reported to the context: a shader that does not compile, an image too
+  /// large.
   Result<void> render(GLContext& context, const Node& root, const Camera& camera, const RenderTarget& target,
                       const RenderOptions& options = {});
 

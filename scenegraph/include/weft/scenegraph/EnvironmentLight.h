@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "weft/chunks/ShaderDefines.h"
+#include "weft/chunks/State.h"
+#include "weft/scenegraph/Light.h"
+#include "weft/scenegraph/Material.h"
+
+namespace weft {
+
+/// Light from all sides, infinitely far away, that its node turns (moving it changes nothing). A scene has at
+/// most one. makeEnvironmentLight() of weft::materials makes it from a picture.
+class EnvironmentLight : public Light {
+ public:
+  /// `lighting`: chunks that every program finds beside those of its material, in slots that materials leave
+  /// empty; `defines`: what programs are told of them; `background`: what is drawn behind everything;
+  /// `scale`: what the values of `lighting` are multiplied by.
+  EnvironmentLight(State lighting, ShaderDefines defines, std::shared_ptr<const Material> background,
+                   float scale)
+      : lighting_(std::move(lighting)),
+        defines_(std::move(defines)),
+        background_(std::move(background)),
+        scale_(scale) {}
+
+  const State& lighting() const { return lighting_; }
+  const ShaderDefines& defines() const { return defines_; }
+  const std::shared_ptr<const Material>& background() const { return background_; }
+  float scale() const { return scale_; }
+
+  glm::vec3 intensity{1.0f};  ///< RGB, linear: what the picture's radiance is multiplied by
+  bool showsBackground = true;
+
+ private:
+  State lighting_;
+  ShaderDefines defines_;
+  std::shared_ptr<const Material> background_;
+  float scale_;
+};
+
+}  // namespace weft
