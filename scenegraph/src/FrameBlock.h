@@ -21,8 +21,8 @@ struct FrameBlock {
   glm::mat4 viewProjection{1.0f};
   glm::vec4 eye{0.0f};
   std::array<LightBlock, kMaximumLights> lights{};  ///< the directional ones first
-  std::array<glm::vec4, 3> environmentRows{};  ///< from world space to the environment
-  glm::vec4 environmentIntensity{0.0f};        ///< rgb; w: EnvironmentLight::scale()
+  std::array<glm::vec4, 3> environmentRows{};       ///< from world space to the environment
+  glm::vec4 environmentIntensity{0.0f};             ///< rgb; w: EnvironmentLight::scale()
 };
 static_assert(sizeof(FrameBlock) == 64 + 16 + kMaximumLights * 48 + 64);
 
