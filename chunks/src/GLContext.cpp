@@ -2,11 +2,15 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace weft {
 
 namespace {
+
+constexpr std::size_t kLeastShare = 1024;  // buckets of objects that one frame looks at
 
 int integer(GLenum name) {
   GLint value = 0;
@@ -48,7 +52,15 @@ void GLContext::setProgramDefines(ShaderDefines defines) {
 }
 
 void GLContext::deleteOrphans() {
-  std::erase_if(objects_, [](const auto& entry) { return entry.second.owner.expired(); });
+  // Looking at every owner would cost a frame of ten thousand meshes more than its drawing.
+  const std::size_t buckets = objects_.bucket_count();
+  std::vector<const void*> orphans;
+  for (std::size_t i = std::min(buckets, std::max(kLeastShare, buckets / 16)); i > 0; --i) {
+    nextBucket_ = (nextBucket_ + 1) % buckets;
+    for (auto entry = objects_.begin(nextBucket_); entry != objects_.end(nextBucket_); ++entry)
+      if (entry->second.owner.expired()) orphans.push_back(entry->first);
+  }
+  for (const void* orphan : orphans) objects_.erase(orphan);
 }
 
 void GLContext::report(Error error) {

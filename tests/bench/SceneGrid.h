@@ -40,7 +40,7 @@ class SceneGrid {
   static constexpr int kPicture = 256;
   static constexpr float kFieldOfView = 0.7f;
   static constexpr float kDistance = 150.0f;
-  static constexpr float kNearDistance = 9.3f;  ///< from which a few dozens are in the picture
+  static constexpr float kNearDistance = 7.46f;  ///< from which 42 boxes are in the picture
   static constexpr glm::vec3 kTowardsLight{0.3713906764f, 0.5570860145f, 0.7427813527f};
 
   struct Item {

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <thread>
@@ -238,6 +239,24 @@ TEST_F(RenderActionTest, ObjectsOfDestroyedOwnersAreDeletedInTheirContextAtItsNe
   EXPECT_TRUE(glIsBuffer(static_cast<GLuint>(buffer)));
   picture(Node());
   EXPECT_FALSE(glIsBuffer(static_cast<GLuint>(buffer)));
+}
+
+TEST_F(RenderActionTest, ObjectsOfManyOwnersAreDeletedInAFewFrames) {
+  std::vector<std::unique_ptr<UniformBlockChunk>> blocks;
+  std::vector<GLuint> buffers;
+  for (int i = 0; i < 5000; ++i) {
+    blocks.push_back(std::make_unique<UniformBlockChunk>(std::vector<std::byte>(16)));
+    blocks.back()->activate(context(), uniformSlot(2));
+    GLint buffer = 0;
+    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 2, &buffer);
+    buffers.push_back(static_cast<GLuint>(buffer));
+  }
+  blocks.back()->deactivate(context(), uniformSlot(2));
+  const auto left = [&] { return std::count_if(buffers.begin(), buffers.end(), glIsBuffer); };
+  blocks.resize(10);
+  EXPECT_EQ(left(), 5000);
+  for (int frame = 0; frame < 20; ++frame) picture(Node());
+  EXPECT_EQ(left(), 10);
 }
 
 TEST_F(RenderActionTest, ChangedChunkShowsInEveryContext) {

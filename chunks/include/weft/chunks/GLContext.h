@@ -74,7 +74,8 @@ class GLContext {
   const std::filesystem::path& shaderFolder() const { return shaderFolder_; }
   void setShaderFolder(std::filesystem::path folder) { shaderFolder_ = std::move(folder); }
 
-  /// Deletes the GL objects whose owner is gone; the renderer calls it once a frame.
+  /// Deletes the GL objects whose owner is gone, of many owners a share at each call; the renderer calls it
+  /// once a frame.
   void deleteOrphans();
 
   /// Remembers an expected failure that came up where GL objects are made (a shader, a texture too large).
@@ -97,6 +98,7 @@ class GLContext {
   GLLimits limits_;
   std::unordered_map<std::type_index, std::shared_ptr<void>> shared_;
   std::unordered_map<const void*, Objects> objects_;  ///< by the owner's address
+  std::size_t nextBucket_ = 0;                        ///< of objects_, where deleteOrphans() goes on
   ShaderDefines programDefines_;
   std::uint64_t programDefinesRevision_ = 1;
   std::filesystem::path shaderFolder_;
