@@ -21,5 +21,12 @@ find_package(TBB REQUIRED)
 set(MPI_CXX_SKIP_MPICXX TRUE) # the deprecated C++ interface
 find_package(MPI COMPONENTS CXX) # without it weft-fit runs in one process
 find_package(embree 3 REQUIRED)
+find_package(glfw3 QUIET) # without it and OpenSceneGraph their embedding samples are not built
+find_package(OpenSceneGraph 3.6 QUIET COMPONENTS osgViewer osgGA osgText osgDB osgUtil)
+if(OPENSCENEGRAPH_FOUND)
+  add_library(weft_openscenegraph INTERFACE)
+  target_include_directories(weft_openscenegraph SYSTEM INTERFACE ${OPENSCENEGRAPH_INCLUDE_DIRS})
+  target_link_libraries(weft_openscenegraph INTERFACE ${OPENSCENEGRAPH_LIBRARIES})
+endif()
 find_package(GTest REQUIRED)
 find_package(benchmark REQUIRED)

@@ -6,6 +6,7 @@
 #include "layer_lookup.glsl"
 #include "field_numbers.glsl"
 #include "model.glsl"
+#include "shown.glsl"
 
 layout(std140, binding = 2) uniform ReflectanceField {
   vec2 textureScale;   // repetitions per unit of texture coordinates
@@ -193,5 +194,5 @@ void main() {
   // fract() of a tiny negative number rounds to 1.
   vec3 radiance = radianceOf(min(ivec2(place), size - 1), view, frame, turned);
 #endif
-  color = vec4(radiance, 1.0);
+  color = shown(vec4(radiance, 1.0));
 }

@@ -2,6 +2,7 @@
 #version 450 core
 #include "lights.glsl"
 #include "environment.glsl"
+#include "shown.glsl"
 
 layout(std140, binding = 2) uniform Lambert {
   vec4 baseColor;  // linear
@@ -33,5 +34,5 @@ void main() {
 #ifdef ENVIRONMENT
   radiance += environmentIntensity.w * environmentIntensity.rgb * mattAround(toEnvironment(n));
 #endif
-  color = vec4(diffusePart * albedo.rgb * radiance, albedo.a);
+  color = shown(vec4(diffusePart * albedo.rgb * radiance, albedo.a));
 }

@@ -5,6 +5,7 @@
 #include "environment.glsl"
 #include "tangent_frame.glsl"
 #include "ggx.glsl"
+#include "shown.glsl"
 
 const float pi = 3.14159265358979;
 
@@ -165,4 +166,5 @@ void main() {
 #else
   color.a = 1.0;
 #endif
+  color = shown(color);
 }

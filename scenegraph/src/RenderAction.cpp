@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <utility>
@@ -150,6 +152,14 @@ void fill(GLBuffer& buffer, const void* data, std::size_t bytes) {
 
 }  // namespace
 
+/// Where a frame is drawn, and what of it.
+struct RenderAction::Place {
+  float aspect;
+  Encoding encoding;
+  ReflectedPart part;
+  std::function<void()> enter, leave;
+};
+
 /// The lists of a frame, kept for their memory.
 struct RenderAction::Frame {
   std::vector<std::uint32_t> visible;
@@ -288,13 +298,29 @@ RenderAction& RenderAction::operator=(RenderAction&&) noexcept = default;
 
 Result<void> RenderAction::render(GLContext& context, const Node& root, const Camera& camera,
                                   const RenderTarget& target, const RenderOptions& options) {
+  const Place place{static_cast<float>(target.width()) / static_cast<float>(target.height()),
+                    Encoding::Linear, options.part, [&] { target.bindAndClear(context, options.background); },
+                    RenderTarget::unbind};
+  return renderTo(place, context, root, camera);
+}
+
+Result<void> RenderAction::renderInPlace(GLContext& context, const Node& root, const Camera& camera,
+                                         Encoding encoding) {
+  std::array<GLfloat, 4> viewport{};
+  glGetFloatv(GL_VIEWPORT, viewport.data());
+  if (viewport[2] == 0.0f || viewport[3] == 0.0f) return {};  // a window can have been made that small
+  const Place place{viewport[2] / viewport[3], encoding, ReflectedPart::All, [] {}, [] {}};
+  return renderTo(place, context, root, camera);
+}
+
+Result<void> RenderAction::renderTo(const Place& place, GLContext& context, const Node& root,
+                                    const Camera& camera) {
   FlatScene& scene = FlatScene::of(root);
   const auto lock = scene.look();
   context.deleteOrphans();
   if (const Node* undressed = scene.undressed())
     return fail("a geometry has no material", undressed->name(), "put it below a MaterialGroup");
-  const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
-  const glm::mat4 viewProjection = camera.projection(aspect) * camera.view;
+  const glm::mat4 viewProjection = camera.projection(place.aspect) * camera.view;
   WEFT_TRY(const FrameNumbers numbers, frameNumbers(scene, camera, viewProjection));
 
   frame_->findVisible(scene, camera, viewProjection);
@@ -312,14 +338,16 @@ Result<void> RenderAction::render(GLContext& context, const Node& root, const Ca
 
   auto& objects = context.objectsOf<FrameObjects>(owner_);
   fill(objects.frame, &numbers.block, sizeof numbers.block);
-  context.setProgramDefines(numbers.defines(options.part));
+  ShaderDefines defines = numbers.defines(place.part);
+  if (place.encoding == Encoding::Srgb) defines.emplace_back("ENCODE_SRGB", "");
+  context.setProgramDefines(std::move(defines));
   if (!frame_->models.empty()) {
     fill(objects.models, frame_->models.data(), frame_->models.size() * sizeof(ModelRows));
     fill(objects.commands, frame_->commands.data(), frame_->commands.size() * sizeof(DrawCommand));
   }
-  target.bindAndClear(context, options.background);
+  place.enter();
   if (!context.failed()) frame_->draw(context, scene, objects, numbers.environment, statistics_);
-  RenderTarget::unbind();
+  place.leave();
   return context.takeErrors();
 }
 

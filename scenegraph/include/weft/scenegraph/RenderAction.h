@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "weft/chunks/GLContext.h"
+#include "weft/core/Color.h"
 #include "weft/core/Result.h"
 #include "weft/scenegraph/Camera.h"
 #include "weft/scenegraph/Node.h"
@@ -51,11 +52,19 @@ class RenderAction {
   Result<void> render(GLContext& context, const Node& root, const Camera& camera, const RenderTarget& target,
                       const RenderOptions& options = {});
 
-  /// Of the latest render().
+  /// Draws over what is in the current framebuffer, in the current viewport; GL is as it starts up but for
+  /// what says where to draw. PassiveWindow::render() sees to that. `encoding`: of the colours written,
+  /// Linear or Srgb.
+  Result<void> renderInPlace(GLContext& context, const Node& root, const Camera& camera, Encoding encoding);
+
+  /// Of the latest frame.
   const RenderStatistics& statistics() const { return statistics_; }
 
  private:
   struct Frame;
+  struct Place;
+
+  Result<void> renderTo(const Place& place, GLContext& context, const Node& root, const Camera& camera);
 
   std::unique_ptr<Frame> frame_;
   RenderStatistics statistics_;
