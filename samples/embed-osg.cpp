@@ -3,6 +3,7 @@
 
 #include <osg/MatrixTransform>
 #include <osg/ShapeDrawable>
+#include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 
 #include <cstdio>
@@ -84,5 +85,8 @@ int main(int argc, char** argv) {
   viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   viewer.setUpViewInWindow(0, 0, 800, 600);
   viewer.setSceneData(root);
+  const osg::ref_ptr<osgGA::TrackballManipulator> manipulator = new osgGA::TrackballManipulator;
+  manipulator->setHomePosition({1.5, -5, 3}, {0, 0, -0.2}, osg::Z_AXIS);
+  viewer.setCameraManipulator(manipulator);
   return viewer.run();
 }

@@ -13,7 +13,7 @@ namespace weft {
 
 namespace {
 
-constexpr unsigned kUnits = UniformSlot - TextureSlot;
+constexpr unsigned kUnits = SamplerSlot - TextureSlot;
 constexpr unsigned kBlocks = StorageSlot - UniformSlot;
 constexpr unsigned kDrawBuffers = 8;  // what every GL 4.5 has
 constexpr unsigned kViewports = 16;

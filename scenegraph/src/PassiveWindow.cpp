@@ -1,21 +1,15 @@
 #include "weft/scenegraph/PassiveWindow.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <optional>
 
+#include "weft/chunks/GLName.h"
 #include "weft/chunks/GLStateGuard.h"
 
 namespace weft {
 
 namespace {
-
-/// epoxy ends the program without a context; the vendor-neutral dispatch answers, of EGL and of GLX.
-bool hasContext() {
-  const auto getString = reinterpret_cast<PFNGLGETSTRINGPROC>(eglGetProcAddress("glGetString"));
-  return getString && getString(GL_VERSION);
-}
 
 /// What a part of the default framebuffer or of an own one is asked for.
 GLenum firstDrawn() {
@@ -46,7 +40,7 @@ Encoding encodingToWrite() {
 }  // namespace
 
 Result<std::unique_ptr<PassiveWindow>> PassiveWindow::adopt() {
-  if (!hasContext())
+  if (!hasCurrentContext())
     return fail("no OpenGL context is current on this thread", {}, "make the host's context current first");
   if (!epoxy_is_desktop_gl() || epoxy_gl_version() < 45)
     return fail("the current context is below OpenGL 4.5",

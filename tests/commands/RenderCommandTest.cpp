@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "ConstantField.h"
 #include "GltfText.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
@@ -54,20 +55,6 @@ class RenderCommand : public testing::Test {
   const std::string output = (folder / "out.png").string();
 };
 
-/// A field that shows `color` wherever light falls head-on.
-void writeConstantField(const std::filesystem::path& path, glm::vec3 color) {
-  const auto model = test::valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
-  FloatImage shared(1, 1, model->sharedChannels());
-  for (int channel = 0; channel < 3; ++channel) shared.at(0, 0, channel) = color[channel];
-  FloatImage views(1, 1, model->layerChannels(), 1);
-  views.at(0, 0, 5) = 1.0f;
-  ReflectanceFieldDescription description;
-  description.views = description.lights = {{0, 0, 1}};
-  test::requireDone(writeReflectanceField(
-      test::valueOf(ReflectanceField::create(model, description, std::move(shared), std::move(views))),
-      path));
-}
-
 TEST_F(RenderCommand, DrawsTheBuiltInShapes) {
   for (const char* shape : {"shape:plane", "shape:sphere", "shape:cloth"}) {
     const ProgramRun run = render(shape);
@@ -103,7 +90,7 @@ TEST_F(RenderCommand, ALightShowsItsColourOnWhiteThatFacesIt) {
 }
 
 TEST_F(RenderCommand, DressesASceneInAReflectanceField) {
-  writeConstantField(folder / "teal.rf.exr", {0.0f, 0.5f, 0.5f});
+  test::writeConstantField(folder / "teal.rf.exr", {0.0f, 0.5f, 0.5f});
   const std::string scene = write("scene.gltf", test::planeGltf()).string();
   for (const char* name : {"base", "*"}) {
     const ProgramRun run =
@@ -180,7 +167,7 @@ TEST_F(RenderCommand, SaysWhatIsBroken) {
 }
 
 TEST_F(RenderCommand, SaysWhichNamesThereAre) {
-  writeConstantField(folder / "grey.rf.exr", glm::vec3(0.5f));
+  test::writeConstantField(folder / "grey.rf.exr", glm::vec3(0.5f));
   const std::string scene = write("scene.gltf", test::planeGltf()).string();
   expectBadInput(render(scene, {"--material", "bass=" + (folder / "grey.rf.exr").string()}),
                  "there is no material \"bass\" (its materials are [\"base\"])");
@@ -233,7 +220,7 @@ TEST_F(RenderCommand, RendersMeasuredModels) {
   const ProgramRun warned = render(helmet.string());
   EXPECT_EQ(warned.exitCode, 0);
   EXPECT_THAT(warned.err, testing::HasSubstr("LeatherPartsMat_BaseColor.png: no such file"));
-  writeConstantField(folder / "brown.rf.exr", {0.4f, 0.2f, 0.1f});
+  test::writeConstantField(folder / "brown.rf.exr", {0.4f, 0.2f, 0.1f});
   const ProgramRun run =
       render(helmet.string(), {"--material", "LeatherPartsMat=" + (folder / "brown.rf.exr").string()});
   EXPECT_EQ(run.exitCode, 0) << run.err;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <map>
 #include <string>
+#include <tuple>
 
 namespace weft::test {
 
@@ -74,6 +76,78 @@ inline GlSnapshot takeGlSnapshot() {
   for (const auto& [name, value] : kIntegers) addInteger(snapshot, name, value);
   addTextures(snapshot);
   addBlocks(snapshot);
+  return snapshot;
+}
+
+/// All that a host program, in which Weft draws, may have set and does not want to lose.
+inline GlSnapshot takeHostSnapshot() {
+  GlSnapshot snapshot = takeGlSnapshot();
+  constexpr std::pair<const char*, GLenum> kIntegers[] = {
+      {"pipeline", GL_PROGRAM_PIPELINE_BINDING},
+      {"pack buffer", GL_PIXEL_PACK_BUFFER_BINDING},
+      {"indirect buffer", GL_DRAW_INDIRECT_BUFFER_BINDING},
+      {"copy read buffer", GL_COPY_READ_BUFFER_BINDING},
+      {"copy write buffer", GL_COPY_WRITE_BUFFER_BINDING},
+      {"renderbuffer", GL_RENDERBUFFER_BINDING},
+      {"draw buffer", GL_DRAW_BUFFER},
+      {"read buffer", GL_READ_BUFFER},
+      {"blend equation", GL_BLEND_EQUATION_RGB},
+      {"blend equation alpha", GL_BLEND_EQUATION_ALPHA},
+      {"logic operation", GL_COLOR_LOGIC_OP},
+      {"depth clamp", GL_DEPTH_CLAMP},
+      {"scissor test", GL_SCISSOR_TEST},
+      {"stencil test", GL_STENCIL_TEST},
+      {"stencil function", GL_STENCIL_FUNC},
+      {"stencil mask", GL_STENCIL_WRITEMASK},
+      {"multisampling", GL_MULTISAMPLE},
+      {"alpha to coverage", GL_SAMPLE_ALPHA_TO_COVERAGE},
+      {"dithering", GL_DITHER},
+      {"sRGB", GL_FRAMEBUFFER_SRGB},
+      {"seamless cubes", GL_TEXTURE_CUBE_MAP_SEAMLESS},
+      {"line offset", GL_POLYGON_OFFSET_LINE},
+      {"point offset", GL_POLYGON_OFFSET_POINT},
+      {"primitive restart", GL_PRIMITIVE_RESTART},
+      {"restart index", GL_PRIMITIVE_RESTART_INDEX},
+      {"program point size", GL_PROGRAM_POINT_SIZE},
+      {"rasterizer discard", GL_RASTERIZER_DISCARD},
+      {"clip distance 0", GL_CLIP_DISTANCE0},
+      {"clip distance 7", GL_CLIP_DISTANCE7},
+      {"clip origin", GL_CLIP_ORIGIN},
+      {"clip depth", GL_CLIP_DEPTH_MODE},
+      {"provoking vertex", GL_PROVOKING_VERTEX},
+      {"line width", GL_LINE_WIDTH},
+      {"point size", GL_POINT_SIZE},
+      {"unpack row length", GL_UNPACK_ROW_LENGTH},
+      {"unpack rows skipped", GL_UNPACK_SKIP_ROWS},
+      {"unpack pixels skipped", GL_UNPACK_SKIP_PIXELS},
+      {"unpack swaps", GL_UNPACK_SWAP_BYTES},
+      {"unpack image height", GL_UNPACK_IMAGE_HEIGHT},
+      {"unpack images skipped", GL_UNPACK_SKIP_IMAGES},
+      {"pack alignment", GL_PACK_ALIGNMENT},
+      {"pack row length", GL_PACK_ROW_LENGTH},
+      {"debug output", GL_DEBUG_OUTPUT},
+  };
+  for (const auto& [name, value] : kIntegers) addInteger(snapshot, name, value);
+  constexpr std::tuple<const char*, GLenum, std::size_t> kVectors[] = {{"viewport", GL_VIEWPORT, 4},
+                                                                       {"scissor", GL_SCISSOR_BOX, 4},
+                                                                       {"color mask", GL_COLOR_WRITEMASK, 4},
+                                                                       {"polygon mode", GL_POLYGON_MODE, 2}};
+  for (const auto& [name, value, count] : kVectors) {
+    GLint current[4] = {};
+    glGetIntegerv(value, current);
+    for (std::size_t i = 0; i < count; ++i) snapshot[fmt::format("{} {}", name, i)] = current[i];
+  }
+  for (unsigned i = 0; i < 8; ++i) {
+    GLint64 size = 0;
+    glGetInteger64i_v(GL_UNIFORM_BUFFER_SIZE, i, &size);
+    snapshot[fmt::format("uniform {} size", i)] = static_cast<int>(size);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, i, &size);
+    snapshot[fmt::format("storage {} start", i)] = static_cast<int>(size);
+    GLint source = 0;
+    glGetIntegeri_v(GL_BLEND_SRC_RGB, i, &source);
+    snapshot[fmt::format("blend {} source", i)] = source;
+    snapshot[fmt::format("blend {}", i)] = glIsEnabledi(GL_BLEND, i);
+  }
   return snapshot;
 }
 

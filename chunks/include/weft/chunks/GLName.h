@@ -6,8 +6,13 @@
 
 namespace weft {
 
+/// Whether an OpenGL context of any kind is current on this thread. Never fails, as calls of GL do without
+/// one.
+bool hasCurrentContext();
+
 /// Owns the name of one GL object, 0 for none. Destroyed where the object's context is current, which
-/// GLContext::objectsOf() takes care of.
+/// GLContext::objectsOf() takes care of, or where none is because the context has ended, and its objects with
+/// it.
 template <class Deleter>
 class GLName {
  public:
@@ -19,7 +24,7 @@ class GLName {
     return *this;
   }
   ~GLName() {
-    if (name_ != 0) Deleter()(name_);
+    if (name_ != 0 && hasCurrentContext()) Deleter()(name_);
   }
 
   operator GLuint() const { return name_; }

@@ -19,7 +19,8 @@ enum class HostState {
 /// Weft in a GL context that another program, the host, has made and draws with: GLFW's, OpenSceneGraph's,
 /// Qt's. Core or compatibility profile.
 ///
-/// One a context. Make, use and destroy it with that context current.
+/// One a context. Make, use and destroy it with that context current; where none is current any more, its GL
+/// objects have gone with their context.
 class PassiveWindow {
  public:
   /// Adopts the context that is current. Fails where none is, or one below OpenGL 4.5.
