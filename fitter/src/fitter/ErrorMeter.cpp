@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "BatchEncoding.h"
+#include "weft/core/BatchEncoding.h"
 #include "FitWeights.h"
 
 namespace weft {
@@ -37,6 +37,7 @@ ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& 
       encoding_(measured.encoding),
       viewIsFitted_(amongOthers(measured.views, description.views)),
       lightIsFitted_(amongOthers(measured.lights, description.lights)),
+      modelledLights_(formula_.modelledLights(measured.lights)),
       layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
   for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
     layers_.push_back(formula_.layersAround(direction, direction));
@@ -64,18 +65,27 @@ void ErrorMeter::forEachLayer(std::size_t direction, std::span<const float> laye
 
 void ErrorMeter::evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
                               std::span<glm::vec3> values) const {
-  std::ranges::fill(values, glm::vec3(0.0f));
   if (layersAreLights_) {
+    std::ranges::fill(values, glm::vec3(0.0f));
     for (std::size_t light = 0; light < lights_.size(); ++light)
       forEachLayer(light, layers, [&](std::span<const float> layer, float weight) {
         values[light] += weight * formula_.evaluate(shared, layer, lights_[light], views_[view]);
       });
     return;
   }
-  std::vector<glm::vec3> ofLayer(lights_.size());
+  bool isFirst = true;
+  std::vector<glm::vec3> ofLayer;
   forEachLayer(view, layers, [&](std::span<const float> layer, float weight) {
-    formula_.evaluateLights(shared, layer, lights_, views_[view], ofLayer);
-    for (std::size_t light = 0; light < lights_.size(); ++light) values[light] += weight * ofLayer[light];
+    if (isFirst) {
+      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], values);
+      if (weight != 1.0f)
+        for (glm::vec3& value : values) value *= weight;
+    } else {
+      ofLayer.resize(values.size());
+      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], ofLayer);
+      for (std::size_t light = 0; light < values.size(); ++light) values[light] += weight * ofLayer[light];
+    }
+    isFirst = false;
   });
 }
 
@@ -88,7 +98,7 @@ SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const f
   std::vector<glm::vec3> storedModel(lightCount);
   for (std::size_t view = 0; view < views_.size(); ++view) {
     evaluateView(shared, layers, view, model);
-    storedModel = model;
+    std::ranges::copy(model, storedModel.begin());
     encodeAll(encoding_, floatsOf(storedModel));
     const auto addRun = [&](TexelErrors& to, std::size_t first, std::size_t count) {
       const std::size_t from = view * lightCount + first;

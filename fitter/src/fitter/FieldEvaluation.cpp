@@ -120,7 +120,7 @@ FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int heigh
   for (std::size_t i = 0; i < texels.size(); ++i) {
     const TexelErrors& fitted = texels[i].fitted;
     map.values()[i] =
-        static_cast<float>(fitted.sums[0][0].absolute / std::max(static_cast<double>(fitted.pairs), 1.0));
+        fitted.sums[0][0].absolute / std::max(static_cast<float>(fitted.pairs), 1.0f);
   }
   return map;
 }

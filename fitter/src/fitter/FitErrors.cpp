@@ -46,19 +46,22 @@ void addSums(std::array<ErrorSums, 2>& to, const SpaceSums& sums) {
 ErrorStatistics statisticsOf(std::span<const TexelErrors> texels, std::size_t space, std::size_t measure,
                              double peak) {
   std::vector<double> epsilon;
+  epsilon.reserve(texels.size());
   double squared = 0.0;
   double pairs = 0.0;
   for (const TexelErrors& texel : texels) {
-    epsilon.push_back(texel.sums[space][measure].absolute / static_cast<double>(texel.pairs));
-    squared += texel.sums[space][measure].squared;
+    epsilon.push_back(double{texel.sums[space][measure].absolute} / static_cast<double>(texel.pairs));
+    squared += double{texel.sums[space][measure].squared};
     pairs += static_cast<double>(texel.pairs);
   }
   ErrorStatistics result;
   for (double value : epsilon) result.average += value / static_cast<double>(epsilon.size());
-  std::sort(epsilon.begin(), epsilon.end());
-  result.minimum = epsilon.front();
-  result.maximum = epsilon.back();
-  result.percentile95 = epsilon[(epsilon.size() - 1) * 95 / 100];
+  const auto [minimum, maximum] = std::ranges::minmax(epsilon);
+  result.minimum = minimum;
+  result.maximum = maximum;
+  const auto percentile95 = epsilon.begin() + static_cast<std::ptrdiff_t>((epsilon.size() - 1) * 95 / 100);
+  std::ranges::nth_element(epsilon, percentile95);
+  result.percentile95 = *percentile95;
   result.rootMeanSquare = std::sqrt(squared / pairs);
   result.psnr = 20.0 * std::log10(peak / result.rootMeanSquare);
   return result;
@@ -70,16 +73,16 @@ void TexelErrors::add(const PairValues& data, const PairValues& model, bool isGr
   const SpaceSums stored = sumsOf(data.stored, model.stored);
   addSums(sums[0], stored);
   addSums(sums[1], sumsOf(data.linear, model.linear));
-  pairs += data.linear.size();
+  pairs += static_cast<std::uint32_t>(data.linear.size());
   if (isGrazing) {
     grazingAbsolute += stored.luminance;
-    grazingPairs += data.linear.size();
+    grazingPairs += static_cast<std::uint32_t>(data.linear.size());
   }
   float largest = 0.0f;
 #pragma omp simd reduction(max : largest)
   for (std::size_t i = 0; i < data.linear.size(); ++i)
     largest = std::max(largest, std::max(std::max(data.linear[i].x, data.linear[i].y), data.linear[i].z));
-  peak = std::max(peak, double{largest});
+  peak = std::max(peak, largest);
 }
 
 FitErrors summarize(std::span<const TexelErrors> texels) {
@@ -90,9 +93,9 @@ FitErrors summarize(std::span<const TexelErrors> texels) {
   double grazingPairs = 0.0;
   double peak = 0.0;
   for (const TexelErrors& texel : texels) {
-    grazing += texel.grazingAbsolute;
+    grazing += double{texel.grazingAbsolute};
     grazingPairs += static_cast<double>(texel.grazingPairs);
-    peak = std::max(peak, texel.peak);
+    peak = std::max(peak, double{texel.peak});
   }
   if (grazingPairs > 0.0) errors.grazing = grazing / grazingPairs;
   if (peak > 0.0) errors.psnrPeak[1] = peak;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "BatchEncoding.h"
+#include "weft/core/BatchEncoding.h"
 
 namespace weft {
 namespace {
@@ -95,11 +95,6 @@ FitTargets channelTargets(std::span<const glm::vec3> samples, int channel, glm::
     targets.weights.push_back(weighted ? displayWeight(value) * base : base);
   }
   return targets;
-}
-
-std::span<float> floatsOf(std::vector<glm::vec3>& colors) {
-  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-  return {&colors.data()->x, 3 * colors.size()};
 }
 
 }  // namespace weft

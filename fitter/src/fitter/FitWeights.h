@@ -44,7 +44,4 @@ FitTargets plainLuminanceTargets(std::span<const glm::vec3> stored);
 FitTargets channelTargets(std::span<const glm::vec3> samples, int channel, glm::vec3 baseColor,
                           bool weighted);
 
-/// The floats of colours, three each.
-std::span<float> floatsOf(std::vector<glm::vec3>& colors);
-
 }  // namespace weft

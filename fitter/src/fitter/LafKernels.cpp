@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "LafKernels.h"
-#include "SimdMath-inl.h"
+#include "weft/core/SimdMath-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace weft {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "SimdMath-inl.h"
+#include "weft/core/SimdMath-inl.h"
 #include "weft/fitter/LobeSolver.h"
 
 HWY_BEFORE_NAMESPACE();

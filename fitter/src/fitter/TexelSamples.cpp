@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "BatchEncoding.h"
+#include "weft/core/BatchEncoding.h"
 #include "FitWeights.h"
 
 namespace weft {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "weft/core/BatchEncoding.h"
+
 namespace weft {
 namespace {
 
@@ -79,15 +81,18 @@ glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const 
 }
 
 void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const float> layer,
-                                  std::span<const glm::vec3> lights, glm::vec3 view,
+                                  const ModelledLights& lights, glm::vec3 view,
                                   std::span<glm::vec3> values) const {
-  std::vector<glm::vec3> modelled(lights.size());
-  std::vector<float> factors(lights.size());
+  model_->evaluateColors(shared, layer, lights.directions, notBelow(view, lowestViewZ_), values);
+  if (encoding_ != Encoding::Linear) decodeAll(encoding_, floatsOf(values));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] *= lights.factors[i];
+}
+
+ModelledLights FieldFormula::modelledLights(std::span<const glm::vec3> lights) const {
+  ModelledLights modelled{std::vector<glm::vec3>(lights.size()), std::vector<float>(lights.size())};
   for (std::size_t i = 0; i < lights.size(); ++i)
-    if (lights[i].z > 0.0f) modelled[i] = modelledLight(lights[i], factors[i]);
-  model_->evaluateColors(shared, layer, modelled, notBelow(view, lowestViewZ_), values);
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    values[i] = factors[i] * (encoding_ == Encoding::Linear ? values[i] : decode(encoding_, values[i]));
+    if (lights[i].z > 0.0f) modelled.directions[i] = modelledLight(lights[i], modelled.factors[i]);
+  return modelled;
 }
 
 glm::vec3 FieldFormula::underEnvironment(std::span<const float> shared, std::span<const float> layer,

@@ -49,6 +49,7 @@ class ErrorMeter {
   Encoding encoding_;
   std::vector<bool> viewIsFitted_;
   std::vector<bool> lightIsFitted_;
+  ModelledLights modelledLights_;
   bool layersAreLights_ = false;
   std::vector<DirectionWeights> layers_;  ///< around each view, or light, of the measurement
   bool holdsOut_ = false;

@@ -13,8 +13,8 @@ namespace weft {
 
 /// The error of one texel in one space and one measure: sums over its measured pairs.
 struct ErrorSums {
-  double absolute = 0.0;
-  double squared = 0.0;
+  float absolute = 0.0f;
+  float squared = 0.0f;
 };
 
 /// Index of luminance and RGB in the arrays below.
@@ -31,10 +31,10 @@ struct PairValues {
 /// three channels.
 struct TexelErrors {
   std::array<std::array<ErrorSums, 2>, 2> sums{};  ///< [space][measure]
-  double grazingAbsolute = 0.0;                    ///< stored luminance, theta_v >= 60 degrees
-  std::uint64_t pairs = 0;
-  std::uint64_t grazingPairs = 0;
-  double peak = 0.0;  ///< the largest linear value of the data
+  float grazingAbsolute = 0.0f;                    ///< stored luminance, theta_v >= 60 degrees
+  std::uint32_t pairs = 0;
+  std::uint32_t grazingPairs = 0;
+  float peak = 0.0f;  ///< the largest linear value of the data
 
   /// Adds pairs of one view.
   void add(const PairValues& data, const PairValues& model, bool isGrazing);

@@ -25,6 +25,12 @@ struct ReflectanceFieldDescription {
   std::string fitReport;  ///< JSON text of the fit's errors, as weft-fit wrote it; may be empty
 };
 
+/// Lights as a model is asked for them: FieldFormula::modelledLights() makes them once for many texels.
+struct ModelledLights {
+  std::vector<glm::vec3> directions;
+  std::vector<float> factors;  ///< of the model's values; 0 below the horizon
+};
+
 /// How the numbers of a texel become a value: the model, the cosine and the interpolation between layers. The
 /// CPU reference of shaders/btf.frag (paper M eq. 4). Immutable, thread safe.
 class FieldFormula {
@@ -53,8 +59,9 @@ class FieldFormula {
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
   /// The same for many lights and one view.
-  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
-                      std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> values) const;
+  void evaluateLights(std::span<const float> shared, std::span<const float> layer, const ModelledLights& lights,
+                      glm::vec3 view, std::span<glm::vec3> values) const;
+  ModelledLights modelledLights(std::span<const glm::vec3> lights) const;
   /// Whether light of an environment is integrated by the model's own formula; else quadrature() is summed.
   bool integratesEnvironments() const { return quadrature_.nodes.empty(); }
   const LightQuadrature& quadrature() const { return quadrature_; }

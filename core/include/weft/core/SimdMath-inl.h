@@ -1,10 +1,10 @@
 // Logarithm and power of two for Highway's vectors of floats, with the means that share their code. Highway
 // includes such a file once for every instruction set, hence the guard that toggles.
-#if defined(WEFT_FITTER_SIMD_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef WEFT_FITTER_SIMD_MATH_INL_H
-#undef WEFT_FITTER_SIMD_MATH_INL_H
+#if defined(WEFT_CORE_SIMD_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WEFT_CORE_SIMD_MATH_INL_H
+#undef WEFT_CORE_SIMD_MATH_INL_H
 #else
-#define WEFT_FITTER_SIMD_MATH_INL_H
+#define WEFT_CORE_SIMD_MATH_INL_H
 #endif
 
 #include <hwy/highway.h>

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 
-#include "BatchEncoding.h"
-#include "SimdMath-inl.h"
+#include "weft/core/BatchEncoding.h"
+#include "weft/core/SimdMath-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace weft {

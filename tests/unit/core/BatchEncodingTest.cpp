@@ -1,4 +1,4 @@
-#include "BatchEncoding.h"
+#include "weft/core/BatchEncoding.h"
 
 #include <gtest/gtest.h>
 
