@@ -91,7 +91,7 @@ std::filesystem::path partsOf(const std::filesystem::path& output) {
   return parts += ".parts";
 }
 
-FitOptions fitOptions(const Arguments& a) {
+FitOptions fitOptions(const Arguments& a, const ProcessGroup& group) {
   FitOptions options = a.fit;
   const std::string space = !a.space.empty() ? a.space : a.fit.model.name == "ptm" ? "stored" : "linear";
   const std::string cosine = !a.cosine.empty() ? a.cosine : space == "stored" ? "in" : "out";
@@ -103,6 +103,7 @@ FitOptions fitOptions(const Arguments& a) {
   options.memory = static_cast<std::size_t>(a.memoryGibibytes * 1024.0 * 1024.0 * 1024.0);
   if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
   options.partsFolder = partsOf(a.output);
+  options.secondsBetweenSaves = group.size() > 1 ? 0.0 : 5.0;  // several exchange their rows this way
   return options;
 }
 
@@ -133,7 +134,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
     return fail("no such folder", folder.string(), "create it first");
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
-  const FitOptions options = fitOptions(arguments);
+  const FitOptions options = fitOptions(arguments, group);
   WEFT_TRY(const auto model, ModelRegistry::builtin().create(options.model));
   if (arguments.cosine == "out" && model->containsCosine())
     return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");

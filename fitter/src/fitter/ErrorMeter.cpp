@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "weft/core/BatchEncoding.h"
 #include "FitWeights.h"
+#include "weft/core/BatchEncoding.h"
 
 namespace weft {
 namespace {
@@ -41,6 +41,7 @@ ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& 
       layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
   for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
     layers_.push_back(formula_.layersAround(direction, direction));
+  runs_ = findRuns();
   const auto notAll = [](const std::vector<bool>& flags) {
     return std::ranges::find(flags, false) != flags.end();
   };
@@ -89,31 +90,37 @@ void ErrorMeter::evaluateView(std::span<const float> shared, std::span<const flo
   });
 }
 
+std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
+  std::vector<Run> runs;
+  for (std::size_t view = 0; view < views_.size(); ++view)
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+      const bool isFitted = viewIsFitted_[view] && lightIsFitted_[light];
+      if (light == 0 || runs.back().isFitted != isFitted) runs.push_back({view, light, 0, isFitted});
+      ++runs.back().count;
+    }
+  return runs;
+}
+
 SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const float> layers,
                                 std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const {
   const float grazingZ = std::cos(glm::radians(59.9f));
   const std::size_t lightCount = lights_.size();
   SplitErrors errors;
-  std::vector<glm::vec3> model(lightCount);
-  std::vector<glm::vec3> storedModel(lightCount);
-  for (std::size_t view = 0; view < views_.size(); ++view) {
-    evaluateView(shared, layers, view, model);
-    std::ranges::copy(model, storedModel.begin());
-    encodeAll(encoding_, floatsOf(storedModel));
-    const auto addRun = [&](TexelErrors& to, std::size_t first, std::size_t count) {
-      const std::size_t from = view * lightCount + first;
-      to.add({.linear = linear.subspan(from, count), .stored = stored.subspan(from, count)},
-             {.linear = std::span(model).subspan(first, count),
-              .stored = std::span(storedModel).subspan(first, count)},
-             views_[view].z < grazingZ);
-    };
-    for (std::size_t first = 0; first < lightCount;) {
-      const bool isFitted = viewIsFitted_[view] && lightIsFitted_[first];
-      std::size_t end = first + 1;
-      while (end < lightCount && (viewIsFitted_[view] && lightIsFitted_[end]) == isFitted) ++end;
-      addRun(isFitted ? errors.fitted : errors.heldOut, first, end - first);
-      first = end;
+  std::vector<glm::vec3> model(2 * lightCount);
+  const std::span<glm::vec3> linearModel = std::span(model).first(lightCount);
+  const std::span<glm::vec3> storedModel = std::span(model).last(lightCount);
+  for (const Run& run : runs_) {
+    if (run.firstLight == 0) {
+      evaluateView(shared, layers, run.view, linearModel);
+      std::ranges::copy(linearModel, storedModel.begin());
+      encodeAll(encoding_, floatsOf(storedModel));
     }
+    const std::size_t from = run.view * lightCount + run.firstLight;
+    (run.isFitted ? errors.fitted : errors.heldOut)
+        .add({.linear = linear.subspan(from, run.count), .stored = stored.subspan(from, run.count)},
+             {.linear = linearModel.subspan(run.firstLight, run.count),
+              .stored = storedModel.subspan(run.firstLight, run.count)},
+             views_[run.view].z < grazingZ);
   }
   return errors;
 }

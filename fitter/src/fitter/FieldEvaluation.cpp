@@ -119,8 +119,7 @@ FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int heigh
   FloatImage map(width, height, {"eps"});
   for (std::size_t i = 0; i < texels.size(); ++i) {
     const TexelErrors& fitted = texels[i].fitted;
-    map.values()[i] =
-        fitted.sums[0][0].absolute / std::max(static_cast<float>(fitted.pairs), 1.0f);
+    map.values()[i] = fitted.sums[0][0].absolute / std::max(static_cast<float>(fitted.pairs), 1.0f);
   }
   return map;
 }

@@ -72,11 +72,6 @@ class RowCounter {
   std::mutex mutex_;
 };
 
-struct RowRange {
-  int first = 0;
-  int count = 0;
-};
-
 }  // namespace
 
 Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source) {
@@ -111,6 +106,7 @@ struct FieldFit::Data {
   FittedRows rows;
   double secondsReading = 0.0;
   double secondsFitting = 0.0;
+  Clock::time_point lastSave = Clock::now();
 
   Data(const BtfSource& source_, const FitOptions& options_, const Crop& crop_, const FieldFormula& formula,
        std::shared_ptr<const ReflectanceModel> model_, std::unique_ptr<TexelFitter> fitter_,
@@ -148,23 +144,26 @@ std::vector<RowRange> FieldFit::Data::blocksToFit(int firstRow, int count) const
 }
 
 Result<void> FieldFit::Data::fitBlock(const SampleRows& samples, RowRange block, RowCounter& counter) {
-  constexpr int kParts = 32;  // a stop loses this share of the work at most
+  constexpr int kParts = 32;  // and what a stop loses at least
   const int partRows = (crop.height + kParts - 1) / kParts;
-  tbb::task_group writing;
+  tbb::task_group saving;
   std::mutex mutex;
-  Result<void> written;
+  Result<void> saved;
   for (int first = block.first; first < block.first + block.count; first += partRows) {
     const RowRange part{first, std::min(partRows, block.first + block.count - first)};
     fitPart(samples, block, part, counter);
     rows.setDone(part.first, part.count);
-    writing.run([&, part] {
-      Result<void> result = rows.save(part.first, part.count);
-      const std::scoped_lock lock(mutex);
-      if (!result) written = std::move(result);
-    });
+    if (secondsSince(lastSave) < options.secondsBetweenSaves) continue;
+    lastSave = Clock::now();
+    for (const RowRange unsaved : rows.takeUnsaved())
+      saving.run([&, unsaved] {
+        Result<void> result = rows.save(unsaved);
+        const std::scoped_lock lock(mutex);
+        if (!result) saved = std::move(result);
+      });
   }
-  writing.wait();
-  return written;
+  saving.wait();
+  return saved;
 }
 
 void FieldFit::Data::fitPart(const SampleRows& samples, RowRange block, RowRange part, RowCounter& counter) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "weft/core/Color.h"
+#include "weft/core/CpuVersions.h"
 
 namespace weft {
 namespace {
@@ -17,6 +18,7 @@ struct SpaceSums {
   float luminance = 0.0f, squaredLuminance = 0.0f, rgb = 0.0f, squaredRgb = 0.0f;
 };
 
+WEFT_CPU_VERSIONS
 SpaceSums sumsOf(std::span<const glm::vec3> data, std::span<const glm::vec3> model) {
   float luminanceSum = 0.0f;
   float squaredLuminance = 0.0f;
@@ -34,6 +36,15 @@ SpaceSums sumsOf(std::span<const glm::vec3> data, std::span<const glm::vec3> mod
     squaredRgb += red * red + green * green + blue * blue;
   }
   return {luminanceSum, squaredLuminance, rgb / 3.0f, squaredRgb / 3.0f};
+}
+
+WEFT_CPU_VERSIONS
+float largestOf(std::span<const glm::vec3> colors) {
+  float largest = 0.0f;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    largest = std::max(largest, std::max(std::max(colors[i].x, colors[i].y), colors[i].z));
+  return largest;
 }
 
 void addSums(std::array<ErrorSums, 2>& to, const SpaceSums& sums) {
@@ -78,11 +89,7 @@ void TexelErrors::add(const PairValues& data, const PairValues& model, bool isGr
     grazingAbsolute += stored.luminance;
     grazingPairs += static_cast<std::uint32_t>(data.linear.size());
   }
-  float largest = 0.0f;
-#pragma omp simd reduction(max : largest)
-  for (std::size_t i = 0; i < data.linear.size(); ++i)
-    largest = std::max(largest, std::max(std::max(data.linear[i].x, data.linear[i].y), data.linear[i].z));
-  peak = std::max(peak, largest);
+  peak = std::max(peak, largestOf(data.linear));
 }
 
 FitErrors summarize(std::span<const TexelErrors> texels) {

@@ -44,7 +44,8 @@ FittedRows::FittedRows(int width, int height, const FieldFormula& formula, std::
       errors(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       folder_(std::move(folder)),
       fingerprint_(std::move(fingerprint)),
-      done_(static_cast<std::size_t>(height), false) {
+      done_(static_cast<std::size_t>(height), false),
+      saved_(done_) {
   if (formula.layerCount() > 0)
     layers = FloatImage(width, height, formula.model().layerChannels(), formula.layerCount());
 }
@@ -53,38 +54,51 @@ void FittedRows::setDone(int firstRow, int count) {
   std::fill_n(done_.begin() + firstRow, count, true);
 }
 
-std::vector<std::span<std::byte>> FittedRows::bytesOf(int firstRow, int count) {
+std::vector<RowRange> FittedRows::takeUnsaved() {
+  std::vector<RowRange> ranges;
+  for (std::size_t row = 0; row < done_.size() && !folder_.empty(); ++row) {
+    if (!done_[row] || saved_[row]) continue;
+    saved_[row] = true;
+    const int number = static_cast<int>(row);
+    if (ranges.empty() || ranges.back().first + ranges.back().count != number) ranges.push_back({number, 0});
+    ++ranges.back().count;
+  }
+  return ranges;
+}
+
+std::vector<std::span<std::byte>> FittedRows::bytesOf(RowRange range) {
   std::vector<std::span<std::byte>> bytes;
   const auto rowsOf = [&](FloatImage& image, int layer) {
     const std::size_t rowFloats =
         static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.channelCount());
-    bytes.push_back(std::as_writable_bytes(image.layerValues(layer).subspan(
-        static_cast<std::size_t>(firstRow) * rowFloats, static_cast<std::size_t>(count) * rowFloats)));
+    bytes.push_back(std::as_writable_bytes(
+        image.layerValues(layer).subspan(static_cast<std::size_t>(range.first) * rowFloats,
+                                         static_cast<std::size_t>(range.count) * rowFloats)));
   };
   rowsOf(shared, 0);
   for (int layer = 0; layer < layers.layers(); ++layer) rowsOf(layers, layer);
   const auto width = static_cast<std::size_t>(shared.width());
-  bytes.push_back(std::as_writable_bytes(std::span(errors).subspan(static_cast<std::size_t>(firstRow) * width,
-                                                                   static_cast<std::size_t>(count) * width)));
+  bytes.push_back(std::as_writable_bytes(std::span(errors).subspan(
+      static_cast<std::size_t>(range.first) * width, static_cast<std::size_t>(range.count) * width)));
   return bytes;
 }
 
-Result<void> FittedRows::save(int firstRow, int count) const {
-  if (folder_.empty()) return {};
+Result<void> FittedRows::save(RowRange range) const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) return fail("the folder of finished rows cannot be made: " + error.message(), folder_.string());
-  const std::vector<std::span<std::byte>> rows = const_cast<FittedRows*>(this)->bytesOf(firstRow, count);
+  const std::vector<std::span<std::byte>> rows = const_cast<FittedRows*>(this)->bytesOf(range);
   Header header;
-  header.firstRow = firstRow;
-  header.rowCount = count;
+  header.firstRow = range.first;
+  header.rowCount = range.count;
   header.fingerprintBytes = fingerprint_.size();
   for (std::span<const std::byte> bytes : rows) {
     header.rowsBytes += bytes.size();
     header.checksum = checksumOf(bytes, header.checksum);
   }
-  WEFT_TRY(AtomicFile file, AtomicFile::create(folder_ / fmt::format("{:06}-{:06}{}", firstRow,
-                                                                     firstRow + count - 1, kExtension)));
+  WEFT_TRY(AtomicFile file,
+           AtomicFile::create(folder_ / fmt::format("{:06}-{:06}{}", range.first,
+                                                    range.first + range.count - 1, kExtension)));
   std::ofstream stream(file.temporary(), std::ios::binary);
   stream.write(reinterpret_cast<const char*>(&header), sizeof header);
   stream.write(fingerprint_.data(), static_cast<std::streamsize>(fingerprint_.size()));
@@ -110,7 +124,7 @@ Result<void> FittedRows::loadFile(const std::filesystem::path& path) {
     return fail(fmt::format("finished rows are damaged: {}", what), path.string(), "delete this file");
   };
   std::size_t largest = sizeof(Header) + (std::size_t{1} << 20);
-  for (std::span<const std::byte> bytes : bytesOf(0, shared.height())) largest += bytes.size();
+  for (std::span<const std::byte> bytes : bytesOf({0, shared.height()})) largest += bytes.size();
   WEFT_TRY(const std::vector<std::uint8_t> contents, readFileBytes(path, largest));
   std::span<const std::byte> rest = std::as_bytes(std::span(contents));
   Header header;
@@ -129,7 +143,7 @@ Result<void> FittedRows::loadFile(const std::filesystem::path& path) {
   if (header.firstRow < 0 || header.rowCount < 1 || header.rowCount > shared.height() ||
       header.firstRow > shared.height() - header.rowCount)
     return damaged("rows that do not exist");
-  const std::vector<std::span<std::byte>> rows = bytesOf(header.firstRow, header.rowCount);
+  const std::vector<std::span<std::byte>> rows = bytesOf({header.firstRow, header.rowCount});
   std::size_t wanted = 0;
   for (std::span<const std::byte> bytes : rows) wanted += bytes.size();
   if (header.rowsBytes != wanted || rest.size() != wanted) return damaged("wrong size");
@@ -144,6 +158,7 @@ Result<void> FittedRows::loadFile(const std::filesystem::path& path) {
     rest = rest.subspan(bytes.size());
   }
   setDone(header.firstRow, header.rowCount);
+  std::fill_n(saved_.begin() + header.firstRow, header.rowCount, true);
   return {};
 }
 

@@ -11,6 +11,11 @@
 
 namespace weft {
 
+struct RowRange {
+  int first = 0;
+  int count = 0;
+};
+
 /// The rows of a field while it is being fitted, in memory and in a folder of files, a file for some rows.
 ///
 /// The files let a fit go on after it was stopped, and let several processes share one. They are for the kind
@@ -28,8 +33,10 @@ class FittedRows {
   bool isDone(int row) const { return done_[static_cast<std::size_t>(row)]; }
   void setDone(int firstRow, int count);
 
-  /// Writes rows to a file; nothing where the folder's name is empty.
-  Result<void> save(int firstRow, int count) const;
+  /// The rows that are done and were not given out before, for save(); none where the folder's name is empty.
+  std::vector<RowRange> takeUnsaved();
+  /// Writes rows to a file.
+  Result<void> save(RowRange range) const;
   /// Takes over what is in the folder, which may be missing. Fails on files that are damaged or of another
   /// fit.
   Result<void> load();
@@ -38,11 +45,12 @@ class FittedRows {
 
  private:
   Result<void> loadFile(const std::filesystem::path& path);
-  std::vector<std::span<std::byte>> bytesOf(int firstRow, int count);
+  std::vector<std::span<std::byte>> bytesOf(RowRange range);
 
   std::filesystem::path folder_;
   std::string fingerprint_;
   std::vector<bool> done_;
+  std::vector<bool> saved_;
 };
 
 }  // namespace weft

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "weft/core/BatchEncoding.h"
 #include "FitWeights.h"
+#include "weft/core/BatchEncoding.h"
 
 namespace weft {
 

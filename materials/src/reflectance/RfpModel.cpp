@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "weft/core/CpuVersions.h"
+
 namespace weft {
 namespace {
 
-float polynomial(std::span<const float> a, glm::vec3 d) {
+[[gnu::always_inline]] inline float polynomial(std::span<const float> a, glm::vec3 d) {
   return std::max(a[0] * d.x * d.x + a[1] * d.y * d.y + a[2] * d.x * d.y + a[3] * d.x + a[4] * d.y + a[5],
                   0.0f);
+}
+
+WEFT_CPU_VERSIONS
+void polynomials(std::span<const float> a, std::span<const glm::vec3> directions, std::span<float> values) {
+#pragma omp simd
+  for (std::size_t i = 0; i < directions.size(); ++i) values[i] = polynomial(a, directions[i]);
 }
 
 }  // namespace
@@ -44,7 +52,10 @@ glm::vec3 RfpModel::underEnvironment(std::span<const float>, std::span<const flo
 void RfpModel::evaluateLights(std::span<const float>, std::span<const float> a,
                               std::span<const glm::vec3> lights, glm::vec3 view,
                               std::span<float> values) const {
-  for (std::size_t i = 0; i < lights.size(); ++i) values[i] = polynomial(a, variedDirection(lights[i], view));
+  if (layerDirections_ == LayerDirections::Views)
+    polynomials(a, lights, values);
+  else
+    std::ranges::fill(values, polynomial(a, view));
 }
 
 }  // namespace weft

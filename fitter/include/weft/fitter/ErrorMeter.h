@@ -38,6 +38,15 @@ class ErrorMeter {
                       std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const;
 
  private:
+  // Pairs of one view that are all fitted or all held out.
+  struct Run {
+    std::size_t view = 0;
+    std::size_t firstLight = 0;
+    std::size_t count = 0;
+    bool isFitted = true;
+  };
+
+  std::vector<Run> findRuns() const;
   template <class Function>
   void forEachLayer(std::size_t direction, std::span<const float> layers, const Function& function) const;
   void evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
@@ -49,6 +58,7 @@ class ErrorMeter {
   Encoding encoding_;
   std::vector<bool> viewIsFitted_;
   std::vector<bool> lightIsFitted_;
+  std::vector<Run> runs_;  ///< view by view
   ModelledLights modelledLights_;
   bool layersAreLights_ = false;
   std::vector<DirectionWeights> layers_;  ///< around each view, or light, of the measurement

@@ -43,6 +43,7 @@ struct FitOptions {
   std::size_t memory = std::size_t{4}
                        << 30;  ///< bytes for samples; two blocks of rows share it where one does not suffice
   std::filesystem::path partsFolder;  ///< where finished rows are kept; empty: nowhere
+  double secondsBetweenSaves = 0.0;   ///< of finished rows; what a stop may cost. 0: they are saved at once
 
   Result<void> validate() const;
 };

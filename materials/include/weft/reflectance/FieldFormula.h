@@ -59,8 +59,8 @@ class FieldFormula {
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
   /// The same for many lights and one view.
-  void evaluateLights(std::span<const float> shared, std::span<const float> layer, const ModelledLights& lights,
-                      glm::vec3 view, std::span<glm::vec3> values) const;
+  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+                      const ModelledLights& lights, glm::vec3 view, std::span<glm::vec3> values) const;
   ModelledLights modelledLights(std::span<const glm::vec3> lights) const;
   /// Whether light of an environment is integrated by the model's own formula; else quadrature() is summed.
   bool integratesEnvironments() const { return quadrature_.nodes.empty(); }
