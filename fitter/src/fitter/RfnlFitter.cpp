@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "ExchangedFitter.h"
@@ -42,27 +43,71 @@ struct Lobe {
     return {amplitude, p, std::pow(largestExponent, 1.0f / (1.0f + std::exp(-parameters[3])))};
   }
 
-  float valueAt(glm::vec3 light) const {
-    return amplitude * std::pow(std::max(glm::dot(directionFromParabolic(p), light), 0.0f), exponent);
-  }
+  glm::vec3 direction() const { return directionFromParabolic(p); }
 };
 
+// The value of lobes for a light, and its derivative by the light.
+struct Value {
+  float value = 0.0f;
+  glm::vec3 gradient{0.0f};
+};
+
+Value valueOf(std::span<const Lobe> lobes, float diffuse, glm::vec3 light, bool modelHasCosine) {
+  Value sum{diffuse, {}};
+  for (const Lobe& lobe : lobes) {
+    const glm::vec3 direction = lobe.direction();
+    const float cosine = glm::dot(direction, light);
+    if (cosine <= 0.0f) continue;
+    const float value = lobe.amplitude * std::pow(cosine, lobe.exponent);
+    sum.value += value;
+    sum.gradient += value * lobe.exponent / cosine * direction;
+  }
+  if (modelHasCosine) return sum;
+  return {sum.value * light.z, sum.gradient * light.z + glm::vec3(0.0f, 0.0f, sum.value)};
+}
+
+// Where one lobe is brightest: n.l lifts that above the lobe's own direction, to where cot(e) = n tan(e - d)
+// with the elevations e of the light and d of the lobe; solved for small angles.
+glm::vec3 brightestLight(const Lobe& lobe, bool modelHasCosine) {
+  const glm::vec3 direction = lobe.direction();
+  const float elevation = std::asin(std::clamp(direction.z, -1.0f, 1.0f));
+  const float lifted = modelHasCosine
+                           ? std::max(elevation, 0.0f)
+                           : 0.5f * (elevation + std::sqrt(elevation * elevation + 4.0f / lobe.exponent));
+  const glm::vec2 across(direction);
+  const glm::vec2 azimuth = across / std::max(glm::length(across), 1e-6f);
+  const float e = std::min(lifted, 0.5f * std::numbers::pi_v<float>);
+  return {azimuth * std::cos(e), std::sin(e)};
+}
+
+// The light near a start that all lobes together reflect most. Where the gradient of the value is parallel to
+// the light, the value is stationary; half a step to the gradient's direction, again and again, climbs there.
+glm::vec3 brightestLight(std::span<const Lobe> lobes, float diffuse, glm::vec3 start, bool modelHasCosine) {
+  constexpr int steps = 8;
+  glm::vec3 light = start;
+  for (int step = 0; step < steps; ++step) {
+    const glm::vec3 gradient = valueOf(lobes, diffuse, light, modelHasCosine).gradient;
+    const float length = glm::length(gradient);
+    if (!(length > 0.0f)) break;
+    light += gradient / length;
+    light = glm::normalize(glm::vec3(light.x, light.y, std::max(light.z, 0.0f)));
+  }
+  return light;
+}
+
 // Between and below the measured lights nothing holds a lobe, and one that is seen only from its foot may
-// tower there: the white pixels of M 5.3. Weakens lobes that, anywhere on the meridian through them, exceed
-// the brightest sample by far.
-void limitBrightness(std::span<Lobe> lobes, float diffuse, float brightestSample, bool modelHasCosine) {
-  constexpr std::array heights{0.02f, 0.05f, 0.1f, 0.15f, 0.2f, 0.26f,
-                               0.35f, 0.5f,  0.7f, 0.87f, 1.0f};  // z of a light
-  const float limit = 1.35f * brightestSample;
-  for (Lobe& lobe : lobes) {
-    const glm::vec2 azimuth = glm::length(lobe.p) > 1e-6f ? glm::normalize(lobe.p) : glm::vec2(1.0f, 0.0f);
-    for (float z : heights) {
-      const glm::vec3 light(azimuth * std::sqrt(1.0f - z * z), z);
-      float value = diffuse;
-      for (const Lobe& other : lobes) value += other.valueAt(light);
-      if (!modelHasCosine) value *= z;
-      if (value > limit) lobe.amplitude *= limit / value;
-    }
+// tower there: the white pixels of M 5.3. Weakens lobes that exceed a limit anywhere.
+void limitBrightness(std::span<Lobe> lobes, float diffuse, float limit, bool modelHasCosine) {
+  float bound = diffuse;
+  for (const Lobe& lobe : lobes) bound += lobe.amplitude;
+  if (bound <= limit) return;
+  for (std::size_t j = 0; j < lobes.size(); ++j) {
+    const glm::vec3 light =
+        brightestLight(lobes, diffuse, brightestLight(lobes[j], modelHasCosine), modelHasCosine);
+    const float value = valueOf(lobes, diffuse, light, modelHasCosine).value;
+    if (value <= limit) continue;
+    const float own = valueOf(lobes.subspan(j, 1), 0.0f, light, modelHasCosine).value;
+    if (own > 0.0f) lobes[j].amplitude *= std::max(1.0f - (value - limit) / own, 0.0f);
   }
 }
 
@@ -139,11 +184,12 @@ class TexelFit {
   // Lets every view keep a diffuse albedo of its own.
   void polish() { improve(DiffuseSolve::Solve, 10); }
 
-  // Lets all views have one diffuse albedo: the best for the lobes, then the best lobes for it, in turn.
-  void shareDiffuse() {
+  // Lets all views have one diffuse albedo up to a largest one: the best for the lobes, then the best lobes
+  // for it, in turn.
+  void shareDiffuse(float largest) {
     constexpr int rounds = 3;  // a fourth changes the error by less than 1 %
     for (int round = 0; round < rounds; ++round) {
-      const float root = std::sqrt(bestSharedDiffuse());
+      const float root = std::sqrt(std::min(bestSharedDiffuse(), largest));
       for (std::size_t v = 0; v < views_; ++v) parameters_[v * stride_ + stride_ - 1] = root;
       improve(DiffuseSolve::Hold, 5);
     }
@@ -155,13 +201,25 @@ class TexelFit {
   }
 
   // Amplitude, parabolic direction and exponent of every lobe.
-  void write(std::size_t view, bool modelHasCosine, std::span<float> channels) const {
+  void write(std::size_t view, float brightestShare, bool modelHasCosine, std::span<float> channels) const {
     std::vector<Lobe> lobes = lobesOf(view);
-    limitBrightness(lobes, diffuse(view), std::ranges::max(targets_.subspan(view * lights_, lights_)),
-                    modelHasCosine);
+    limitBrightness(lobes, diffuse(view), brightestShare * brightestSample(view), modelHasCosine);
     for (std::size_t j = 0; j < lobes.size(); ++j)
       std::ranges::copy(std::array{lobes[j].amplitude, lobes[j].p.x, lobes[j].p.y, lobes[j].exponent},
                         channels.subspan(4 * j).begin());
+  }
+
+  float brightestSample(std::size_t view) const {
+    return std::ranges::max(targets_.subspan(view * lights_, lights_));
+  }
+
+  // The brightest sample of the view that has the darkest one; entirely black views do not count.
+  float brightestOfDarkestView() const {
+    float darkest = std::numeric_limits<float>::max();
+    for (std::size_t v = 0; v < views_; ++v)
+      if (const float brightest = brightestSample(v); brightest > 0.0f)
+        darkest = std::min(darkest, brightest);
+    return darkest;
   }
 
  private:
@@ -281,7 +339,9 @@ Result<std::unique_ptr<TexelFitter>> RfnlFitter::createForLights(const FitProble
 RfnlFitter::RfnlFitter(const FitProblem& problem)
     : lobes_(problem.model->description().lobes),
       ownDiffuseAlbedo_(problem.model->description().diffuseAlbedo == DiffuseAlbedo::PerView),
-      modelHasCosine_(problem.cosineInModel) {
+      modelHasCosine_(problem.cosineInModel),
+      layersAreViews_(problem.model->layerDirections() == LayerDirections::Views),
+      brightestShare_(problem.weighted ? 1.35f : std::pow(1.35f, 1.0f / 2.2f)) {
   problem_.lights = problem.lights;
   problem_.largestExponent = sharpestExponent(problem.lights);
   for (const glm::vec3 light : problem.lights) {
@@ -295,12 +355,15 @@ void RfnlFitter::fit(std::span<const float> targets, std::span<const float> weig
                      std::span<float> layers) const {
   TexelFit texel(problem_, neighbors_, lobes_, targets, weights);
   texel.fitViews();
-  ownDiffuseAlbedo_ ? texel.polish() : texel.shareDiffuse();
+  // A diffuse albedo that all views share makes white pixels of those that hardly see the texel.
+  const float largestDiffuse =
+      layersAreViews_ ? brightestShare_ * texel.brightestOfDarkestView() : std::numeric_limits<float>::max();
+  ownDiffuseAlbedo_ ? texel.polish() : texel.shareDiffuse(largestDiffuse);
   const std::size_t viewCount = targets.size() / problem_.lights.size();
   const std::size_t numbers = layers.size() / viewCount;
   for (std::size_t v = 0; v < viewCount; ++v) {
     const std::span<float> layer = layers.subspan(v * numbers, numbers);
-    texel.write(v, modelHasCosine_, layer);
+    texel.write(v, brightestShare_, modelHasCosine_, layer);
     if (ownDiffuseAlbedo_) layer.back() = texel.diffuse(v);
   }
   if (!ownDiffuseAlbedo_) shared[0] = texel.diffuse(0);

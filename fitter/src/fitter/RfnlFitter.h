@@ -31,6 +31,9 @@ class RfnlFitter : public TexelFitter {
   int lobes_ = 0;
   bool ownDiffuseAlbedo_ = false;
   bool modelHasCosine_ = false;
+  bool layersAreViews_ = true;
+  /// How far a value may exceed its view's brightest sample: less than a white pixel, with room for rounding.
+  float brightestShare_ = 1.0f;
 };
 
 }  // namespace weft
