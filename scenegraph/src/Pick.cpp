@@ -45,14 +45,17 @@ struct Nearest {
 void findNearest(const FlatObject& object, const Mesh& mesh, const Ray& ray, Nearest& nearest) {
   if (mesh.topology != Topology::Triangles) return;
   const glm::dvec3 origin(ray.origin), direction(ray.direction);
-  const auto corner = [&](std::size_t i) {
-    const glm::vec4 position(mesh.positions[mesh.indices[i]], 1.0f);
+  std::vector<glm::dvec3> places;
+  places.reserve(mesh.positions.size());
+  for (const glm::vec3 position : mesh.positions) {
+    const glm::vec4 local(position, 1.0f);
     const auto& rows = object.model.rows;
-    return glm::dvec3(glm::dot(rows[0], position), glm::dot(rows[1], position), glm::dot(rows[2], position)) -
-           origin;
-  };
+    places.push_back(
+        glm::dvec3(glm::dot(rows[0], local), glm::dot(rows[1], local), glm::dot(rows[2], local)) - origin);
+  }
+  const auto place = [&](std::size_t i) { return places[mesh.indices[i]]; };
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const auto hit = meet(direction, {corner(i), corner(i + 1), corner(i + 2)});
+    const auto hit = meet(direction, {place(i), place(i + 1), place(i + 2)});
     if (!hit || !(glm::length(hit->offset) < nearest.distance)) continue;
     nearest = {glm::length(hit->offset), *hit, &object, i / 3};
   }
