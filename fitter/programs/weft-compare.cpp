@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::filesystem::path input;
   std::filesystem::path output;
-  std::vector<std::string> models{"laf", "slaf", "rfp", "rfnl"};
+  std::vector<std::string> models{"laf", "slaf", "rfp", "rfnl", "bump"};
   std::vector<int> crop;
   std::string space = "linear";
   double memoryGibibytes = 4.0;
