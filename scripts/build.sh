@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs what Weft needs (as root, where anything is missing), then configures and builds it.
-# scripts/build.sh [PRESET [TARGET...]]: release (default) or sanitize; all targets by default
+# scripts/build.sh [PRESET [TARGET...]]: release (default), sanitize or thread-sanitize; all targets by default
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

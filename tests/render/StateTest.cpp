@@ -6,6 +6,7 @@
 
 #include "GlSnapshot.h"
 #include "GlTest.h"
+#include "TestSupport.h"
 #include "weft/chunks/BlendChunk.h"
 #include "weft/chunks/CubeTextureChunk.h"
 #include "weft/chunks/DepthChunk.h"
@@ -227,6 +228,28 @@ TEST_F(StateTest, NothingTouchesGLBeforeTheFirstActivation) {
     state.set(chunks.front()->kind(), chunks.front());
     EXPECT_EQ(state.at(chunks.front()->kind()), chunks.front().get());
   }
+}
+
+TEST_F(StateTest, EveryChunkServesTwoContextsAndOutlivesBoth) {
+  std::vector<ChunkList> kinds = allKinds();
+  auto other = test::valueOf(HeadlessWindow::create(true));
+  const auto activateAll = [&](HeadlessWindow& each) {
+    each.makeCurrent();
+    for (const ChunkList& chunks : kinds)
+      for (const auto& chunk : chunks) {
+        chunk->activate(each.context(), chunk->kind());
+        chunk->deactivate(each.context(), chunk->kind());
+      }
+    (void)each.context().takeErrors();  // of the program that is broken on purpose
+  };
+  activateAll(*window);
+  activateAll(*other);
+  activateAll(*window);
+  other.reset();
+  kinds.front().clear();  // the objects of these stay in the first context until its next frame
+  activateAll(*window);
+  window.reset();
+  kinds.clear();  // no context is current: a GL call would crash
 }
 
 TEST(StateDeathTest, AChunkGoesOnlyIntoASlotOfItsKind) {
