@@ -13,10 +13,10 @@ std::string textOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Readme, QuotesTheEmbeddingExampleThatIsTested) {
-  const std::string example = textOf(test::sourceFolder() / "docs/examples/embedding.cpp");
-  ASSERT_FALSE(example.empty());
-  EXPECT_THAT(textOf(test::sourceFolder() / "README.md"), testing::HasSubstr("```cpp\n" + example + "```\n"));
+TEST(Readme, QuotesTheSampleThatIsTested) {
+  const std::string sample = textOf(test::sourceFolder() / "samples/offscreen.cpp");
+  ASSERT_FALSE(sample.empty());
+  EXPECT_THAT(textOf(test::sourceFolder() / "README.md"), testing::HasSubstr("```cpp\n" + sample + "```\n"));
 }
 
 }  // namespace
