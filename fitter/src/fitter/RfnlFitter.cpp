@@ -320,6 +320,13 @@ class TexelFit {
   std::vector<float> scratch_;
 };
 
+// A white pixel of M 5.3 exceeds its view's brightest sample 1.5 times; less than that, with room for
+// rounding. What a light field shows between the measured views has no such bound.
+float brightestShareOf(const FitProblem& problem) {
+  if (problem.model->layerDirections() == LayerDirections::Lights) return 2.0f;
+  return problem.weighted ? 1.35f : std::pow(1.35f, 1.0f / 2.2f);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<TexelFitter>> RfnlFitter::create(const FitProblem& problem) {
@@ -341,7 +348,7 @@ RfnlFitter::RfnlFitter(const FitProblem& problem)
       ownDiffuseAlbedo_(problem.model->description().diffuseAlbedo == DiffuseAlbedo::PerView),
       modelHasCosine_(problem.cosineInModel),
       layersAreViews_(problem.model->layerDirections() == LayerDirections::Views),
-      brightestShare_(problem.weighted ? 1.35f : std::pow(1.35f, 1.0f / 2.2f)) {
+      brightestShare_(brightestShareOf(problem)) {
   problem_.lights = problem.lights;
   problem_.largestExponent = sharpestExponent(problem.lights);
   for (const glm::vec3 light : problem.lights) {

@@ -32,7 +32,7 @@ class RfnlFitter : public TexelFitter {
   bool ownDiffuseAlbedo_ = false;
   bool modelHasCosine_ = false;
   bool layersAreViews_ = true;
-  /// How far a value may exceed its view's brightest sample: less than a white pixel, with room for rounding.
+  /// How many times its layer's brightest sample a value may reach.
   float brightestShare_ = 1.0f;
 };
 
