@@ -1,4 +1,4 @@
-// Light from an environment: what PrefilteredEnvironment and CosineLobeTable hold (materials/src/materials/ImageBasedLight.cpp
+// Light from an environment: what PrefilteredEnvironment and MicrofacetTable hold (materials/src/materials/ImageBasedLight.cpp
 // puts them on their units). Everything is in units of a white surface, which shows 1 in an environment of 1, and without
 // environmentIntensity, by which the sum is multiplied.
 #ifdef ENVIRONMENT
@@ -10,8 +10,7 @@ layout(binding = 16) uniform sampler3D environmentLobes;  // octahedral; along z
 #endif
 layout(binding = 17) uniform sampler3D environmentMoments;  // octahedral; a layer a moment
 layout(binding = 18) uniform sampler3D environmentGlossy;   // octahedral; along z the roughness
-layout(binding = 19) uniform sampler2D lobeTable;
-layout(binding = 20) uniform sampler2D microfacetTable;
+layout(binding = 19) uniform sampler2D microfacetTable;
 
 // The surface's axes, tangent frame, in the environment: n lies along the third.
 struct EnvironmentFrame {
@@ -85,9 +84,20 @@ vec3 lightOfLobe(EnvironmentFrame frame, vec3 t, float exponent) {
   vec3 average = averageOfLobe(frame.axes * t, exponent);
   return 2.0 / (exponent + 1.0) * max(t.z, 0.0) * average;
 #else
-  vec3 found = valueOfTable(lobeTable, vec2(0.5 * t.z + 0.5, log2(exponent) / 8.0));
-  vec3 direction = frame.axes * (t + found.y * (vec3(0.0, 0.0, 1.0) - t.z * t));
-  return 2.0 / (exponent + 1.0) * found.x * averageOfLobe(direction, found.z);
+  // CosineLobe.cpp: lobeAboveHorizon().
+  float narrow = 1.0 / (exponent + 2.0);
+  float mean = t.z * (1.0 - narrow);
+  float spread = 0.6366 * max(1.0 - t.z * t.z, 0.0) * narrow * (1.0 - 0.42 * narrow);
+  float squared = mean * mean + spread;
+  float inverse = inversesqrt(squared);
+  float root = squared * inverse;
+  float cut = spread * inverse * inverse;
+  float facing = max(0.5 * (mean + root) - 0.25 * root * cut * (1.0 - cut) * (1.0 - 0.5 * cut), 0.0);
+  float shift = narrow * inverse * (1.0 + 0.85 * narrow * cut * cut) * (mean < 0.0 ? 1.0 + 1.85 * (1.0 - cut) : 1.0);
+  float below = 0.5 - 0.5 * mean * inverse;
+  vec3 direction = frame.axes * (t + shift * (vec3(0.0, 0.0, 1.0) - t.z * t));
+  return 2.0 / (exponent + 1.0) * facing *
+         averageOfLobe(direction, log2(exponent + 1.0) + below * (1.05 + 1.37 * narrow));
 #endif
 }
 

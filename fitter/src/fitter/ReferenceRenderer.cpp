@@ -203,7 +203,9 @@ glm::vec4 ReferenceRenderer::Tracer::radiance(glm::vec3 origin, glm::vec3 direct
     if (shot.shadows && shadowed(aboveSurface, toLight, point ? std::sqrt(squared) : kInfinity)) continue;
     sum += light.intensity / (point ? squared : 1.0f) * material.value(x, y, l, view);
   }
-  return glm::vec4(sum / kPi, 1.0f);
+  const glm::mat3 axes(frame.t, frame.b, frame.n);
+  const glm::vec3 around = material.surroundings ? material.surroundings(x, y, axes, view) : glm::vec3(0.0f);
+  return glm::vec4(sum / kPi + around, 1.0f);
 }
 
 ReferenceRenderer::ReferenceRenderer(std::unique_ptr<const Tracer> tracer) : tracer_(std::move(tracer)) {}
@@ -220,7 +222,8 @@ Result<ReferenceRenderer> ReferenceRenderer::create(ReferenceMesh mesh) {
 
 FloatImage ReferenceRenderer::render(const ReferenceShot& shot, const ReferenceMaterial& material) const {
   WEFT_EXPECT(shot.width > 0 && shot.height > 0 && shot.samples > 0, "a picture has pixels and rays");
-  WEFT_EXPECT(material.width > 0 && material.height > 0 && material.value, "a material has texels");
+  WEFT_EXPECT(material.width > 0 && material.height > 0 && (material.value || shot.lights.empty()),
+              "a material has texels");
   WEFT_EXPECT(glm::length(glm::cross(shot.target - shot.eye, shot.up)) > 0.0f, "the eye looks somewhere");
   FloatImage image(shot.width, shot.height, {"R", "G", "B", "A"});
   const PinholeCamera camera(shot);

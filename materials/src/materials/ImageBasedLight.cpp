@@ -8,13 +8,13 @@
 #include "weft/chunks/ProgramChunk.h"
 #include "weft/chunks/TextureChunk.h"
 #include "weft/materials/ChunkMaterial.h"
-#include "weft/reflectance/CosineLobe.h"
+#include "weft/reflectance/MicrofacetTable.h"
 
 namespace weft {
 namespace {
 
 // The texture units of environment.glsl.
-enum Unit : unsigned { LobesUnit = 16, MomentsUnit, GlossyUnit, LobeTableUnit, MicrofacetTableUnit };
+enum Unit : unsigned { LobesUnit = 16, MomentsUnit, GlossyUnit, MicrofacetTableUnit };
 
 constexpr int kParabolicSize = 128;
 constexpr int kParabolicExponents = 11;
@@ -99,7 +99,6 @@ std::shared_ptr<EnvironmentLight> makeEnvironmentLight(const Environment& enviro
   }
   lighting.set(textureSlot(MomentsUnit), smooth(withAlpha(prefiltered.moments), TextureShape::Volume));
   lighting.set(textureSlot(GlossyUnit), smooth(withAlpha(prefiltered.glossy), TextureShape::Volume));
-  lighting.set(textureSlot(LobeTableUnit), smooth(withAlpha(CosineLobeTable().image()), TextureShape::Flat));
   lighting.set(textureSlot(MicrofacetTableUnit),
                smooth(std::make_shared<const FloatImage>(MicrofacetTable().image()), TextureShape::Flat));
   return std::make_shared<EnvironmentLight>(std::move(lighting), std::move(defines),

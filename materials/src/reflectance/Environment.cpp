@@ -218,4 +218,26 @@ Environment Environment::reduced(int newWidth, int newHeight) const {
   return Environment(std::move(to));
 }
 
+glm::vec3 Environment::bilinear(glm::vec2 place) const {
+  const glm::vec2 at = place * glm::vec2(width(), height()) - 0.5f;
+  const glm::vec2 low = glm::floor(at), share = at - low;
+  const int x0 = (static_cast<int>(low.x) + width()) % width(), x1 = (x0 + 1) % width();
+  const int y0 = std::clamp(static_cast<int>(low.y), 0, height() - 1);
+  const int y1 = std::clamp(static_cast<int>(low.y) + 1, 0, height() - 1);
+  return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), share.x),
+                  glm::mix(texel(x0, y1), texel(x1, y1), share.x), share.y);
+}
+
+Environment Environment::enlarged() const {
+  constexpr int kFewest = 64, kWidth = 256, kHeight = 128;
+  if (width() >= kFewest) return *this;
+  FloatImage to = emptyImage(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const glm::vec3 radiance = bilinear((glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight));
+      for (int c = 0; c < 3; ++c) to.at(x, y, c) = radiance[c];
+    }
+  return Environment(std::move(to));
+}
+
 }  // namespace weft

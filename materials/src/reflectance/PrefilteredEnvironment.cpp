@@ -49,22 +49,11 @@ class Pyramid {
     const auto low = std::min(static_cast<std::size_t>(level), levels_.size() - 1);
     const auto high = std::min(low + 1, levels_.size() - 1);
     const glm::vec2 place = Environment::place(direction);
-    return glm::mix(bilinear(levels_[low], place), bilinear(levels_[high], place),
+    return glm::mix(levels_[low].bilinear(place), levels_[high].bilinear(place),
                     level - static_cast<float>(low));
   }
 
  private:
-  static glm::vec3 bilinear(const Environment& environment, glm::vec2 place) {
-    const int width = environment.width(), height = environment.height();
-    const glm::vec2 at = place * glm::vec2(width, height) - 0.5f;
-    const glm::vec2 low = glm::floor(at), share = at - low;
-    const int x0 = (static_cast<int>(low.x) + width) % width, x1 = (x0 + 1) % width;
-    const int y0 = std::clamp(static_cast<int>(low.y), 0, height - 1),
-              y1 = std::clamp(static_cast<int>(low.y) + 1, 0, height - 1);
-    return glm::mix(glm::mix(environment.texel(x0, y0), environment.texel(x1, y0), share.x),
-                    glm::mix(environment.texel(x0, y1), environment.texel(x1, y1), share.x), share.y);
-  }
-
   std::vector<Environment> levels_;
 };
 
@@ -137,7 +126,7 @@ PrefilteredEnvironment PrefilteredEnvironment::create(const Environment& environ
   const SphericalHarmonics harmonics(kDegree);
   // The narrowest lobe is 7 degrees wide: texels of 0.7 are points to it.
   const SphericalHarmonics::Matrix radiance =
-      harmonics.coefficients(environment.reduced(512, 256), momentWeights());
+      harmonics.coefficients(environment.reduced(512, 256).enlarged(), momentWeights());
   const auto zeros = [&](int layers) {
     return SphericalHarmonics::Matrix(SphericalHarmonics::Matrix::Zero(harmonics.count(), 3 * layers));
   };
@@ -167,7 +156,7 @@ PrefilteredEnvironment PrefilteredEnvironment::create(const Environment& environ
   result.lobes = harmonics.onMap(lobes, kLobeMap);
   result.moments = harmonics.onMap(moments, kLobeMap);
   result.glossy = harmonics.onMap(glossy, kGlossyMap);
-  sampleSmoothLayers(environment.reduced(1024, 512), result.glossy);
+  sampleSmoothLayers(environment.reduced(1024, 512).enlarged(), result.glossy);
   clampAtZero(result.lobes);
   clampAtZero(result.glossy);
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -36,6 +37,9 @@ struct ReferenceMaterial {
   /// Linear RGB of texel (x, y) for unit directions of its tangent frame, n.l included: 1 is a white
   /// Lambertian surface lit head-on. light.z > 0; called from many threads at once.
   std::function<glm::vec3(int x, int y, glm::vec3 light, glm::vec3 view)> value{};
+  /// Radiance that it shows of what surrounds it, beside the lights; may be empty. `axes`: tangent, bitangent
+  /// and normal in the world; likewise called.
+  std::function<glm::vec3(int x, int y, const glm::mat3& axes, glm::vec3 view)> surroundings{};
 };
 
 struct ReferenceLight {

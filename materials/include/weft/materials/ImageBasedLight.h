@@ -10,7 +10,7 @@ namespace weft {
 
 /// How materials with lobes ask an environment.
 enum class LobeLookup {
-  /// Each lobe's part above the horizon, times n.l, as one lobe (CosineLobeTable), between exponents.
+  /// Each lobe's part above the horizon, times n.l, as one lobe (lobeAboveHorizon()), between exponents.
   Fitted,
   /// Paper M 5.2: lobes as they are, times n.t, their exponents rounded to 2^(i/2), i = 0..10, in parabolic
   /// maps of a rectangle texture. For comparisons.

@@ -51,6 +51,11 @@ class Environment {
   double solidAngle(int y) const;
   /// Smaller, at most so large, by averages over solid angle; equal where it is small already.
   Environment reduced(int width, int height) const;
+  /// Where it has fewer than 64 columns: bilinearly enlarged, so that texels, which sums take for points, are
+  /// small beside every lobe.
+  Environment enlarged() const;
+  /// Between the middles of texels; places of `place()`.
+  glm::vec3 bilinear(glm::vec2 place) const;
 
  private:
   explicit Environment(FloatImage image) : image_(std::move(image)) {}

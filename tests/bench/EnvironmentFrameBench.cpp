@@ -1,0 +1,91 @@
+// What a frame under an environment costs beside one under a point light: three views, two lobes, 512 x 512.
+//
+//   environment_frame_bench WOOL.rf.exr [FRAMES]
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <vector>
+
+#include "weft/materials/ImageBasedLight.h"
+#include "weft/scene_io/BTFMaterialLoader.h"
+#include "weft/scenegraph/Geometry.h"
+#include "weft/scenegraph/HeadlessWindow.h"
+#include "weft/scenegraph/MaterialGroup.h"
+#include "weft/scenegraph/RenderAction.h"
+#include "weft/scenegraph/Shapes.h"
+#include "weft/scenegraph/Transform.h"
+
+namespace {
+
+using namespace weft;
+
+struct Setting {
+  const char* name;
+  std::shared_ptr<Node> scene;
+  std::vector<double> milliseconds{};
+};
+
+std::shared_ptr<Node> lit(const std::shared_ptr<const Material>& material,
+                          std::shared_ptr<const NodeCore> light, glm::vec3 place) {
+  auto root = std::make_shared<Node>(std::make_shared<MaterialGroup>(material));
+  root->addChild(std::make_shared<Geometry>(std::make_shared<const Mesh>(makePlane())));
+  glm::mat4 shift(1.0f);
+  shift[3] = glm::vec4(place, 1.0f);
+  root->addChild(std::make_shared<Transform>(shift))->addChild(std::move(light));
+  return root;
+}
+
+Result<void> measure(const char* file, int frames) {
+  WEFT_TRY(const auto material, loadBTFMaterial(file, {.textureScale = glm::vec2(4)}));
+  WEFT_TRY(const Environment environment, Environment::builtin("sky"));
+  const PrefilteredEnvironment prefiltered = PrefilteredEnvironment::create(environment);
+  const auto around = [&](LobeLookup lookup) {
+    auto light = makeEnvironmentLight(environment, prefiltered, lookup);
+    light->showsBackground = false;  // the square fills the picture
+    return lit(material, std::move(light), {});
+  };
+  std::vector<Setting> settings{
+      {"point light", lit(material, std::make_shared<PointLight>(glm::vec3(4.0f)), {0.4f, 0.5f, 1.0f})},
+      {"environment, fitted", around(LobeLookup::Fitted)},
+      {"environment, paper", around(LobeLookup::Paper)}};
+
+  WEFT_TRY(const auto window, HeadlessWindow::create());
+  RenderAction renderer;
+  const RenderTarget target(512, 512);
+  Camera camera = Camera::lookAt({0.1f, -0.25f, 0.35f}, {0, 0, 0});
+  camera.verticalFieldOfView = 1.2f;
+  for (int frame = -2; frame < frames; ++frame)  // one after the other, so that all see the same disturbances
+    for (Setting& setting : settings) {
+      const auto start = std::chrono::steady_clock::now();
+      WEFT_TRY_VOID(renderer.render(window->context(), *setting.scene, camera, target));
+      glFinish();
+      if (frame >= 0)
+        setting.milliseconds.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+  double first = 0.0;
+  for (Setting& setting : settings) {
+    std::ranges::sort(setting.milliseconds);
+    const double median = setting.milliseconds[setting.milliseconds.size() / 2];
+    if (first == 0.0) first = median;
+    fmt::print("{:20} median {:6.2f} ms, least {:6.2f} ms, {:.2f} times a point light\n", setting.name,
+               median, setting.milliseconds.front(), median / first);
+  }
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "environment_frame_bench FIELD.rf.exr [FRAMES]\n");
+    return 1;
+  }
+  const auto done = measure(argv[1], argc > 2 ? std::max(std::atoi(argv[2]), 1) : 40);
+  if (!done) fmt::print(stderr, "{}\n", done.error().message());
+  return done ? 0 : 2;
+}
