@@ -177,7 +177,7 @@ TEST_P(GpuAgainstSums, ShowTheSameFormula) {
 INSTANTIATE_TEST_SUITE_P(Environments, GpuAgainstSums, testing::Values("studio", "sky", "venice", "city"));
 
 TEST_F(GpuAgainstSums, ShowTheSameFormulaOfOtherFitsToo) {
-  size = 20;  // some ask for averages around each of 81 lights
+  size = 12;  // some ask for averages around each of 81 lights
   compare(kVariants, smallEnvironment("studio"));
 }
 

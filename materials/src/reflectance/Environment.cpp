@@ -77,11 +77,12 @@ struct Softbox {
 
 glm::vec3 studioRadiance(glm::vec3 direction) {
   // Key from the upper left in front, fill from the right, rim from behind; +Z is where the viewer stands.
-  static const std::array<Softbox, 3> boxes{{{{-0.9f, 0.9f, 0.9f}, {0.45f, 0.45f}, {9.0f, 8.6f, 8.0f}},
-                                             {{1.0f, 0.35f, 0.8f}, {0.35f, 0.7f}, {1.6f, 1.8f, 2.1f}},
-                                             {{0.5f, 0.8f, -1.0f}, {0.6f, 0.25f}, {6.0f, 6.2f, 6.6f}}}};
+  static const std::array<Softbox, 3> boxes{{{{-0.9f, 0.9f, 0.9f}, {0.45f, 0.45f}, {5.4f, 5.16f, 4.8f}},
+                                             {{1.0f, 0.35f, 0.8f}, {0.35f, 0.7f}, {0.96f, 1.08f, 1.26f}},
+                                             {{0.5f, 0.8f, -1.0f}, {0.6f, 0.25f}, {3.6f, 3.72f, 3.96f}}}};
   const float up = direction.y;
-  glm::vec3 sum = glm::mix(glm::vec3(0.10f, 0.095f, 0.09f), glm::vec3(0.22f, 0.23f, 0.25f), 0.5f + 0.5f * up);
+  glm::vec3 sum =
+      glm::mix(glm::vec3(0.06f, 0.057f, 0.054f), glm::vec3(0.132f, 0.138f, 0.15f), 0.5f + 0.5f * up);
   for (const Softbox& box : boxes) sum += box.seen(direction);
   return sum;
 }
