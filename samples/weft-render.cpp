@@ -347,10 +347,11 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   const auto settings = readSettings(arguments);
   if (!settings) return tool.badUsage(settings.error());
   WEFT_TRY(GltfScene scene,
-           loadScene(*settings, {.textureScale = glm::vec2(arguments.uvScale),
-                                 .interpolatedViews = arguments.views,
-                                 .filter = arguments.filter == "nearest" ? TexelFilter::Nearest
-                                                                         : TexelFilter::Bilinear}));
+           loadScene(*settings,
+                     {.textureScale = glm::vec2(arguments.uvScale),
+                      .interpolatedViews = arguments.views,
+                      .filter = arguments.filter == "nearest" ? TexelFilter::Nearest : TexelFilter::Bilinear,
+                      .preparedForEnvironments = !arguments.environment.empty()}));
   std::vector<std::string> warnings;
   for (const std::string& warning : scene.warnings)
     warnings.push_back(fmt::format("{}: {}", settings->scene, warning));

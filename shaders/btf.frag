@@ -102,7 +102,10 @@ vec3 quadratureLight(int index, EnvironmentFrame frame, out vec3 light) {
 }
 #else
 // What one layer shows; each colour channel of a fit in RGB has lobes of its own.
-vec3 environmentValue(Texel texel, Layer layer, vec3 view, EnvironmentFrame frame) {
+vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view, EnvironmentFrame frame) {
+#ifdef ENVIRONMENT_LAYERS
+  for (int c = 0; c < COLOR_CHANNELS; ++c) layer.channels[c] = fetchLayerOf(environmentNumbers, place, index, c);
+#endif
   vec3 value = underEnvironment(texel.channels[0], layer.channels[0], view, frame);
   for (int c = 1; c < COLOR_CHANNELS; ++c)
     value[c] = underEnvironment(texel.channels[c], layer.channels[c], view, frame)[c];
@@ -163,7 +166,7 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame, EnvironmentFrame tur
       fromEnvironment += layers.weight[k] * light * valueWithCosine(texel, layer, l, seenFrom);
     }
 #else
-    fromEnvironment += layers.weight[k] * environmentValue(texel, layer, seenFrom, turned);
+    fromEnvironment += layers.weight[k] * environmentValue(texel, layer, place, layers.index[k], seenFrom, turned);
 #endif
 #endif
   }

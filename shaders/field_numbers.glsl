@@ -21,12 +21,24 @@ SharedNumbers fetchShared(ivec2 texel, int channel) {
   return numbers;
 }
 
-LayerNumbers fetchLayer(ivec2 texel, int layer, int channel) {
+LayerNumbers fetchLayerOf(sampler2DArray image, ivec2 texel, int layer, int channel) {
   LayerNumbers numbers;
   int first = (layer * COLOR_CHANNELS + channel) * LAYER_TEXELS;
-  for (int i = 0; i < LAYER_TEXELS; ++i) numbers.texels[i] = texelFetch(layerNumbers, ivec3(texel, first + i), 0);
+  for (int i = 0; i < LAYER_TEXELS; ++i) numbers.texels[i] = texelFetch(image, ivec3(texel, first + i), 0);
   return numbers;
 }
+
+LayerNumbers fetchLayer(ivec2 texel, int layer, int channel) {
+  return fetchLayerOf(layerNumbers, texel, layer, channel);
+}
+
+// The paper's way with lobes takes them as they are.
+#ifdef ENVIRONMENT_PARABOLIC
+#undef ENVIRONMENT_LAYERS
+#endif
+#ifdef ENVIRONMENT_LAYERS
+layout(binding = 5) uniform sampler2DArray environmentNumbers;  // ReflectanceModel::prepareForEnvironments()
+#endif
 
 // The direction that varies within a layer.
 vec3 variedDirection(vec3 light, vec3 view) {

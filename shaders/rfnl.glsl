@@ -36,7 +36,11 @@ vec3 underEnvironment(SharedNumbers shared_, LayerNumbers layer, vec3 view, Envi
     if (lobe.x == 0.0) continue;
     float squared = dot(lobe.yz, lobe.yz);
     vec3 direction = vec3(2.0 * lobe.yz, 1.0 - squared) / (1.0 + squared);
+#ifdef ENVIRONMENT_LAYERS
+    value += lobe.x * averageOfLobe(frame.axes * direction, lobe.w);
+#else
     value += lobe.x * lightOfLobe(frame, direction, lobe.w);
+#endif
   }
 #endif
   return max(value, 0.0);

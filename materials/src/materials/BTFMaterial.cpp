@@ -54,7 +54,7 @@ std::shared_ptr<const FloatImage> packedShared(const ReflectanceField& field) {
 }
 
 // For every layer and colour channel the numbers, padded to whole texels.
-std::shared_ptr<const FloatImage> packedLayers(const ReflectanceField& field) {
+std::shared_ptr<FloatImage> packedLayers(const ReflectanceField& field, const FloatImage& from) {
   const ReflectanceModel& model = field.model();
   const int channels = model.colorChannels();
   const int numbers = static_cast<int>(model.layerNumbers().size());
@@ -62,8 +62,7 @@ std::shared_ptr<const FloatImage> packedLayers(const ReflectanceField& field) {
   auto packed = std::make_shared<FloatImage>(rgbaLayers(field, layers * channels * layerTexels(model)));
   for (int layer = 0; layer < layers; ++layer)
     for (int c = 0; c < channels; ++c)
-      packNumbers(field.layers(), layer, c * numbers, numbers, *packed,
-                  (layer * channels + c) * layerTexels(model), 0);
+      packNumbers(from, layer, c * numbers, numbers, *packed, (layer * channels + c) * layerTexels(model), 0);
   packed->setPrecision(field.layers().precision());
   return packed;
 }
@@ -101,13 +100,28 @@ ShaderSource sourceFor(const ReflectanceField& field, const BTFMaterialOptions& 
 // The layers' numbers, and the tables that find them.
 void setLayerChunks(BTFMaterial& material, const ReflectanceField& field) {
   const LayerLookup lookup = LayerLookup::create(field.formula().triangulation());
-  material.setChunk(textureSlot(0), std::make_shared<TextureChunk>(
-                                        packedLayers(field), TextureOptions{.shape = TextureShape::Array}));
+  material.setChunk(textureSlot(0),
+                    std::make_shared<TextureChunk>(packedLayers(field, field.layers()),
+                                                   TextureOptions{.shape = TextureShape::Array}));
   material.setChunk(textureSlot(2), std::make_shared<CubeTextureChunk>(
                                         std::make_shared<const FloatImage>(lookup.triangleOfDirection)));
   material.setChunk(textureSlot(3),
                     std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(lookup.triangles),
                                                    TextureOptions{.shape = TextureShape::Rectangle}));
+}
+
+// The layers as environments are asked for them; empty where the model has no such numbers.
+FloatImage preparedLayers(const ReflectanceField& field) {
+  const auto channels = static_cast<std::size_t>(field.model().colorChannels());
+  const std::size_t numbers = field.model().layerNumbers().size();
+  FloatImage layers = field.layers();
+  for (int layer = 0; layer < layers.layers(); ++layer)
+    for (int y = 0; y < layers.height(); ++y)
+      for (int x = 0; x < layers.width(); ++x)
+        for (std::size_t c = 0; c < channels; ++c)
+          if (!field.model().prepareForEnvironments(layers.texel(x, y, layer).subspan(c * numbers, numbers)))
+            return {};
+  return layers;
 }
 
 // A texel a node: the light, and its weight.
@@ -137,7 +151,12 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
     return fail(fmt::format("the field needs {} texture layers of at most {}", layers, kMaximumLayers));
 
   std::shared_ptr<BTFMaterial> material(new BTFMaterial(field));
-  material->setChunk(ProgramSlot, std::make_shared<ProgramChunk>(sourceFor(*field, options)));
+  const FloatImage prepared = options.preparedForEnvironments && field->formula().integratesEnvironments()
+                                  ? preparedLayers(*field)
+                                  : FloatImage();
+  ShaderSource source = sourceFor(*field, options);
+  if (!prepared.empty()) source.defines.emplace_back("ENVIRONMENT_LAYERS", "");
+  material->setChunk(ProgramSlot, std::make_shared<ProgramChunk>(std::move(source)));
   if (layers > 0) setLayerChunks(*material, *field);
   material->setChunk(textureSlot(1), std::make_shared<TextureChunk>(
                                          packedShared(*field), TextureOptions{.shape = TextureShape::Array}));
@@ -145,6 +164,13 @@ Result<std::shared_ptr<BTFMaterial>> BTFMaterial::create(std::shared_ptr<const R
                      std::make_shared<UniformBlockChunk>(blockBytes(FieldBlock{
                          options.textureScale, field->formula().lowestLightZ(),
                          field->formula().lowestViewZ(), field->formula().quadrature().exponent})));
+  if (!prepared.empty()) {
+    auto packed = packedLayers(*field, prepared);
+    if (prepared.precision() == Precision::Half) packed->roundToHalf();
+    material->setChunk(textureSlot(5),
+                       std::make_shared<TextureChunk>(std::shared_ptr<const FloatImage>(std::move(packed)),
+                                                      TextureOptions{.shape = TextureShape::Array}));
+  }
   if (!field->formula().integratesEnvironments())
     material->setChunk(textureSlot(4),
                        std::make_shared<TextureChunk>(nodesOf(field->formula().quadrature()),

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "weft/core/Direction.h"
+#include "weft/reflectance/CosineLobe.h"
 
 namespace weft {
 
@@ -68,6 +69,21 @@ glm::vec3 RfnlModel::underEnvironment(std::span<const float> shared, std::span<c
     if (lobe[0] != 0.0f) value += lobe[0] * light.lobe(directionFromParabolic({lobe[1], lobe[2]}), lobe[3]);
   }
   return glm::max(value, 0.0f);
+}
+
+// Lobes above the horizon, with log2 of their exponents.
+bool RfnlModel::prepareForEnvironments(std::span<float> layer) const {
+  if (!integratesEnvironments()) return false;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+    const auto lobe = layer.subspan(4 * j, 4);
+    const CosineLobe above = lobeAboveHorizon(directionFromParabolic({lobe[1], lobe[2]}), lobe[3], {0, 0, 1});
+    const glm::vec2 p = parabolicFromDirection(above.direction);
+    lobe[0] *= above.amount;
+    lobe[1] = p.x;
+    lobe[2] = p.y;
+    lobe[3] = std::log2(above.exponent);
+  }
+  return true;
 }
 
 std::map<std::string, std::string> RfnlModel::shaderDefines() const {

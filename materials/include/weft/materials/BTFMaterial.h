@@ -22,6 +22,9 @@ struct BTFMaterialOptions {
   int interpolatedViews =
       3;  ///< 3: paper M eq. 4; 1: the nearest measured view alone, faster, with seams between views
   TexelFilter filter = TexelFilter::Nearest;
+  /// Stores the layers of models that have lobes (`rfnl`) a second time, as environments are asked for them:
+  /// frames under an environment take a third less, the material twice the memory.
+  bool preparedForEnvironments = false;
   bool doubleSided = false;  ///< draw back faces, too, with the relief of the front seen in the mirror
 };
 

@@ -70,6 +70,9 @@ class ReflectanceModel {
   /// SurfaceLight.
   virtual glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer,
                                      glm::vec3 view, const SurfaceLight& light) const;
+  /// Turns a layer's numbers into those that the GLSL's underEnvironment() reads where ENVIRONMENT_LAYERS is
+  /// defined, because they need not be found at each pixel; false where there are none.
+  virtual bool prepareForEnvironments(std::span<float>) const { return false; }
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
   virtual std::map<std::string, std::string> shaderDefines() const { return {}; }

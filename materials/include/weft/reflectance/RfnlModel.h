@@ -31,6 +31,7 @@ class RfnlModel : public ReflectanceModel {
   bool integratesEnvironments() const override { return layerDirections_ == LayerDirections::Views; }
   glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
                              const SurfaceLight& light) const override;
+  bool prepareForEnvironments(std::span<float> layer) const override;
   std::string shaderFile() const override { return "rfnl.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
