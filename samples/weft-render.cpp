@@ -66,6 +66,7 @@ struct Arguments {
   double exposure = 0.0;
   std::string toneMap;
   std::string show = "all";
+  int turntable = 0;
   int frames = 0;
 };
 
@@ -277,18 +278,19 @@ Result<Camera> chooseCamera(const Settings& settings, const GltfScene& scene) {
 
 /// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their
 /// colour.
-void addLamps(std::vector<Settings::Lamp> lamps, bool needed, const Camera& camera, GltfScene& scene) {
-  const glm::vec3 center = scene.bounds.center();
+void addLamps(std::vector<Settings::Lamp> lamps, bool needed, const Camera& camera, const Bounds& bounds,
+              Node& root) {
+  const glm::vec3 center = bounds.center();
   if (lamps.empty() && needed) {
     const glm::mat3 toWorld = glm::transpose(glm::mat3(camera.view));
     lamps.push_back(
-        {center + 4.0f * std::max(scene.bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
+        {center + 4.0f * std::max(bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
          glm::vec3(1.0f)});
   }
   for (const Settings::Lamp& lamp : lamps) {
     const glm::vec3 offset = lamp.place - center;
     const glm::vec3 intensity = glm::pi<float>() * glm::dot(offset, offset) * lamp.color;
-    scene.root->addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), lamp.place)))
+    root.addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), lamp.place)))
         ->addChild(std::make_shared<PointLight>(intensity));
   }
 }
@@ -324,6 +326,18 @@ Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLCont
   return times;
 }
 
+/// Where the scene is when it has turned by an angle, counter-clockwise seen from above.
+glm::mat4 turned(float radians, glm::vec3 center) {
+  const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), radians, glm::vec3(0, 1, 0));
+  return glm::translate(glm::mat4(1.0f), center) * turn * glm::translate(glm::mat4(1.0f), -center);
+}
+
+/// "cloth.png" as "cloth-007.png".
+std::string numbered(const std::string& path, int number) {
+  const std::size_t end = path.size() - 4;
+  return fmt::format("{}-{:03}{}", path.substr(0, end), number, path.substr(end));
+}
+
 Result<void> writePicture(const std::string& path, const FloatImage& picture) {
   if (path.ends_with(".png")) return writePng(path, picture);
   return writeExr(path, picture);
@@ -356,9 +370,12 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   for (const std::string& warning : scene.warnings)
     warnings.push_back(fmt::format("{}: {}", settings->scene, warning));
   WEFT_TRY(const Camera camera, chooseCamera(*settings, scene));
+  Node root;  // of what stays while the scene turns, too
+  const auto turn = std::make_shared<Transform>();
+  root.addChild(turn)->addChild(scene.root);
   const bool lit = !arguments.environment.empty();
-  if (lit) WEFT_TRY_VOID(addEnvironment(arguments, *scene.root, warnings));
-  addLamps(settings->lamps, !lit && scene.lights == 0, camera, scene);
+  if (lit) WEFT_TRY_VOID(addEnvironment(arguments, root, warnings));
+  addLamps(settings->lamps, !lit && scene.lights == 0, camera, scene.bounds, root);
   if (!tool.quiet())
     for (const std::string& warning : warnings) fmt::print(stderr, "weft-render: {}\n", warning);
 
@@ -369,10 +386,16 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   const RenderTarget target(kSupersampling * settings->width, kSupersampling * settings->height,
                             png && !lit ? Precision::Half : Precision::Float);  // the sun overflows halfs
   const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
-  WEFT_TRY_VOID(renderer.render(context, *scene.root, camera, target, options));
-  FloatImage picture = target.read(context, kSupersampling);
-  expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
-  WEFT_TRY_VOID(writePicture(arguments.output, picture));
+  const int pictures = std::max(arguments.turntable, 1);
+  for (int i = 0; i < pictures; ++i) {
+    turn->setMatrix(turned(glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(pictures),
+                           scene.bounds.center()));
+    WEFT_TRY_VOID(renderer.render(context, root, camera, target, options));
+    FloatImage picture = target.read(context, kSupersampling);
+    expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
+    WEFT_TRY_VOID(
+        writePicture(arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output, picture));
+  }
 
   nlohmann::ordered_json report{{"scene", settings->scene},
                                 {"output", arguments.output},
@@ -386,9 +409,9 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
                                 {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
   if (arguments.frames > 0) {
     const RenderTarget timed(settings->width, settings->height);
-    WEFT_TRY_VOID(timeFrames(1, renderer, context, *scene.root, camera, timed, options));  // makes the target
+    WEFT_TRY_VOID(timeFrames(1, renderer, context, root, camera, timed, options));  // makes the target
     WEFT_TRY(std::vector<double> times,
-             timeFrames(arguments.frames, renderer, context, *scene.root, camera, timed, options));
+             timeFrames(arguments.frames, renderer, context, root, camera, timed, options));
     report["frames"] = arguments.frames;
     report["frame_ms"] = timesAsJson(std::move(times));
   }
@@ -466,6 +489,12 @@ int main(int argc, char** argv) {
   options.add_option("--time", arguments.time,
                      "shows the scene so many seconds after the start of its animation");
   options.add_option("--animation", arguments.animation, "which animation; default: the file's first");
+  options
+      .add_option(
+          "--turntable", arguments.turntable,
+          "so many pictures, NAME-000.png and on, while the scene turns once around its vertical axis; "
+          "camera, --light and --env stay")
+      ->check(CLI::Range(1, 1000));
   options
       .add_option("--frames", arguments.frames,
                   "time this many further frames, without supersampling, for --json")

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "NamedEnvironment.h"
 #include "weft/core/Color.h"
 #include "weft/fitter/EnvironmentReference.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/fitter/RawBtf.h"
 #include "weft/fitter/ReferenceRenderer.h"
-#include "weft/io/EnvironmentFile.h"
 #include "weft/scenegraph/Shapes.h"
 
 namespace {
@@ -92,13 +92,6 @@ FloatImage byFormula(const EnvironmentReference& reference, const ReflectanceFie
   return *sphere([&](int x, int y, const glm::mat3& axes, glm::vec3 view) {
     return field.underEnvironment(x, y, view, EnvironmentReference::Light(reference, axes, method));
   });
-}
-
-Result<Environment> environmentNamed(const std::string& name) {
-  const auto names = Environment::builtinNames();
-  std::vector<std::string> warnings;
-  if (std::find(names.begin(), names.end(), name) != names.end()) return Environment::builtin(name);
-  return readEnvironment(name, warnings);
 }
 
 Result<void> compare(const RawBtf& raw, const std::vector<std::pair<std::string, ReflectanceField>>& fields,

@@ -55,6 +55,16 @@ class RenderCommand : public testing::Test {
   const std::string output = (folder / "out.png").string();
 };
 
+// The first picture is that without a turntable, the second shows the other side.
+TEST_F(RenderCommand, ATurntableShowsTheSceneFromAllSides) {
+  ASSERT_EQ(render("shape:cloth", {"--turntable", "2"}).exitCode, 0);
+  ASSERT_EQ(render("shape:cloth").exitCode, 0);
+  const auto picture = [&](const char* name) { return test::valueOf(readImage(folder / name)).bytes; };
+  EXPECT_EQ(picture("out-000.png"), picture("out.png"));
+  EXPECT_NE(picture("out-001.png"), picture("out.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out-002.png"));
+}
+
 TEST_F(RenderCommand, DrawsTheBuiltInShapes) {
   for (const char* shape : {"shape:plane", "shape:sphere", "shape:cloth"}) {
     const ProgramRun run = render(shape);
