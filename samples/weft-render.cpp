@@ -263,13 +263,26 @@ Camera cameraAt(const Settings::PointOfView& viewpoint, const Bounds& bounds) {
   return camera;
 }
 
-Result<Camera> chooseCamera(const Settings& settings, const GltfScene& scene) {
+/// The cylinder that a scene does not leave when it turns.
+std::shared_ptr<Node> cylinderAround(const Bounds& bounds) {
+  const glm::vec3 half = bounds.maximum - bounds.center();
+  Mesh cylinder = makeSphere(16);
+  for (glm::vec3& p : cylinder.positions) {
+    const glm::vec2 across(p.x, p.z);
+    const glm::vec2 rim = across * (std::hypot(half.x, half.z) / std::max(glm::length(across), 1e-6f));
+    p = bounds.center() + glm::vec3(rim.x, std::copysign(half.y, p.y), rim.y);
+  }
+  return std::make_shared<Node>(std::make_shared<Geometry>(std::make_shared<Mesh>(std::move(cylinder))));
+}
+
+Result<Camera> chooseCamera(const Settings& settings, const GltfScene& scene, bool turns) {
   if (settings.viewpoint) return cameraAt(*settings.viewpoint, scene.bounds);
   for (const GltfScene::NamedCamera& named : scene.cameras)
     if (settings.cameraName.empty() || named.name == settings.cameraName) return named.camera;
+  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   if (settings.cameraName.empty())
-    return frame(*scene.root, kDefaultView,
-                 static_cast<float>(settings.width) / static_cast<float>(settings.height));
+    return turns ? frame(*cylinderAround(scene.bounds), kDefaultView, aspect)
+                 : frame(*scene.root, kDefaultView, aspect);
   std::vector<std::string> names;
   for (const GltfScene::NamedCamera& named : scene.cameras) names.push_back(named.name);
   return fail("there is no camera \"" + settings.cameraName + "\"", settings.scene,
@@ -369,7 +382,7 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
   std::vector<std::string> warnings;
   for (const std::string& warning : scene.warnings)
     warnings.push_back(fmt::format("{}: {}", settings->scene, warning));
-  WEFT_TRY(const Camera camera, chooseCamera(*settings, scene));
+  WEFT_TRY(const Camera camera, chooseCamera(*settings, scene, arguments.turntable > 0));
   Node root;  // of what stays while the scene turns, too
   const auto turn = std::make_shared<Transform>();
   root.addChild(turn)->addChild(scene.root);
