@@ -138,6 +138,7 @@ int HemisphereTriangulation::triangleAt(glm::vec2 p) const {
     const Triangle& t = triangles_[i];
     const glm::vec2 q = slideToHull(t, p);
     const float minimum = std::min({weightRow(t, 0, q), weightRow(t, 1, q), weightRow(t, 2, q)});
+    if (minimum > 1e-6f) return static_cast<int>(i);  // it lies in this one
     if (minimum > bestMinimum) bestMinimum = minimum, best = static_cast<int>(i);
   }
   return best;
