@@ -624,7 +624,8 @@ TEST(GltfScene, SurvivesDamageOfEverythingItReads) {
   const std::string whole = richScene();
   const GltfScene scene = loaded(whole, {.time = 0.5});
   EXPECT_EQ(drawnIn(scene).at(0).mesh->indices.size(), 6u);
-  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("base colour"))) << "its image is a PNG signature and nothing more";
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("base colour")))
+      << "its image is a PNG signature and nothing more";
   // The base64 of the buffer is left alone most of the time: it is most of the text.
   const std::size_t buffer = whole.find("octet-stream");
   const auto path = testFolder() / "scene.gltf";
