@@ -310,11 +310,8 @@ void addLamps(std::vector<Settings::Lamp> lamps, bool needed, const Camera& came
 
 /// The light of `--env`; `warnings` gets what is odd about it.
 Result<void> addEnvironment(const Arguments& arguments, Node& root, std::vector<std::string>& warnings) {
-  const std::vector<std::string> names = Environment::builtinNames();
-  const bool builtin = std::find(names.begin(), names.end(), arguments.environment) != names.end();
   std::vector<std::string> found;
-  WEFT_TRY(const Environment environment, builtin ? Environment::builtin(arguments.environment)
-                                                  : readEnvironment(arguments.environment, found));
+  WEFT_TRY(const Environment environment, environmentNamed(arguments.environment, found));
   for (const std::string& warning : found) warnings.push_back(arguments.environment + ": " + warning);
   const LobeLookup lookup = arguments.environmentLobes == "paper" ? LobeLookup::Paper : LobeLookup::Fitted;
   // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
@@ -378,7 +375,8 @@ Result<ExitCode> render(const Tool& tool, const Arguments& arguments) {
                      {.textureScale = glm::vec2(arguments.uvScale),
                       .interpolatedViews = arguments.views,
                       .filter = arguments.filter == "nearest" ? TexelFilter::Nearest : TexelFilter::Bilinear,
-                      .preparedForEnvironments = !arguments.environment.empty()}));
+                      .preparedForEnvironments =
+                          !arguments.environment.empty() && arguments.environmentLobes == "fitted"}));
   std::vector<std::string> warnings;
   for (const std::string& warning : scene.warnings)
     warnings.push_back(fmt::format("{}: {}", settings->scene, warning));

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "NamedEnvironment.h"
 #include "weft/core/Color.h"
 #include "weft/fitter/EnvironmentReference.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/fitter/RawBtf.h"
 #include "weft/fitter/ReferenceRenderer.h"
+#include "weft/io/EnvironmentFile.h"
 #include "weft/scenegraph/Shapes.h"
 
 namespace {
@@ -67,7 +67,8 @@ double largestChange(const ReferenceRenderer& renderer, const Shown& shown) {
 
 Result<void> compare(const RawBtf& raw, const std::vector<std::pair<std::string, ReflectanceField>>& fields,
                      const ReferenceRenderer& renderer, const std::string& name) {
-  WEFT_TRY(const Environment environment, environmentNamed(name));
+  std::vector<std::string> warnings;
+  WEFT_TRY(const Environment environment, environmentNamed(name, warnings));
   const EnvironmentReference reference(environment.reduced(kColumns, kRows));
   const double measured = largestChange(renderer, [&](int x, int y, const glm::mat3& axes, glm::vec3 view) {
     return reference.shown(axes, [&](glm::vec3 light) { return raw.evaluate(x, y, light, view); });

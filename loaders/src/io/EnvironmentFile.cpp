@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -156,6 +157,12 @@ PrefilteredEnvironment prefilter(const Environment& environment, const std::file
   std::filesystem::create_directories(folder, ignored);
   (void)writeWholeFile(file, packed(prefiltered));  // without it the next run takes longer
   return prefiltered;
+}
+
+Result<Environment> environmentNamed(const std::string& nameOrFile, std::vector<std::string>& warnings) {
+  const std::vector<std::string> names = Environment::builtinNames();
+  const bool builtin = std::find(names.begin(), names.end(), nameOrFile) != names.end();
+  return builtin ? Environment::builtin(nameOrFile) : readEnvironment(nameOrFile, warnings);
 }
 
 }  // namespace weft

@@ -22,6 +22,9 @@ Result<FloatImage> decodeRadiance(std::span<const std::uint8_t> bytes, const std
 /// $XDG_CACHE_HOME/weft, or ~/.cache/weft; empty where neither is set.
 std::filesystem::path cacheFolder();
 
+/// The built-in environment of a name, or else that of a file.
+Result<Environment> environmentNamed(const std::string& nameOrFile, std::vector<std::string>& warnings);
+
 /// PrefilteredEnvironment::create(), or its result of an earlier run from `folder`, where it is kept under a
 /// hash of the environment's values and of how they are filtered. A file that is damaged or cannot be written
 /// changes nothing but the time. An empty folder keeps nothing.
