@@ -6,7 +6,7 @@
 
 #include "weft/core/AtomicFile.h"
 #include "weft/fitter/Comparison.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/tool/Tool.h"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "weft/core/Direction.h"
 #include "weft/fitter/FieldEvaluation.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/tool/Tool.h"

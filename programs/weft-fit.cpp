@@ -8,7 +8,7 @@
 
 #include "weft/fitter/FieldEvaluation.h"
 #include "weft/fitter/FieldFit.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/tool/ProcessGroup.h"
 #include "weft/tool/Tool.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/tool/Tool.h"
 

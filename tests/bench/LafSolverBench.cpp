@@ -6,7 +6,7 @@
 
 #include "LafTexels.h"
 #include "weft/core/Color.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace {
 

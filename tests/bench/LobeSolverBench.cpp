@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "LobeTexels.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace {
 

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace {
 

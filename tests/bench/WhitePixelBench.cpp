@@ -12,7 +12,7 @@
 #include <random>
 
 #include "weft/core/Color.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "ProgramRun.h"
 #include "TestSupport.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft::test {
 namespace {

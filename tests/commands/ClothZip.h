@@ -4,7 +4,7 @@
 
 #include "MemoryBtf.h"
 #include "TestSupport.h"
-#include "weft/io/BtfWriter.h"
+#include "weft/measurement/BtfWriter.h"
 
 namespace weft::test {
 

@@ -7,7 +7,7 @@
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
-#include "weft/io/BtfWriter.h"
+#include "weft/measurement/BtfWriter.h"
 #include "weft/io/ImageFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 

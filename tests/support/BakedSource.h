@@ -4,7 +4,7 @@
 
 #include "TestSupport.h"
 #include "weft/fitter/BtfBaker.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft::test {
 

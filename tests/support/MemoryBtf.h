@@ -4,7 +4,7 @@
 #include <span>
 
 #include "weft/core/Direction.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "TestSupport.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft::test {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "weft/core/Contract.h"
-#include "weft/io/BtfWriter.h"
+#include "weft/measurement/BtfWriter.h"
 
 namespace weft {
 

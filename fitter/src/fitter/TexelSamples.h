@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

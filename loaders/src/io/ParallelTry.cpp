@@ -1,4 +1,4 @@
-#include "ParallelTry.h"
+#include "weft/io/ParallelTry.h"
 
 #include <tbb/parallel_for.h>
 

@@ -16,7 +16,7 @@
 
 #include "ExrPart.h"
 #include "FieldManifest.h"
-#include "ParallelTry.h"
+#include "weft/io/ParallelTry.h"
 #include "weft/core/AtomicFile.h"
 
 namespace weft {

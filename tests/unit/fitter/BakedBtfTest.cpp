@@ -8,7 +8,7 @@
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
 #include "weft/fitter/Pattern.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "weft/fitter/FitErrors.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/FieldFormula.h"
 
 namespace weft {

@@ -13,7 +13,7 @@
 #include "weft/fitter/FieldFit.h"
 #include "weft/fitter/FitErrors.h"
 #include "weft/fitter/HtmlReport.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {

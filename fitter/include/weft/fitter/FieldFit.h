@@ -10,7 +10,7 @@
 #include "weft/fitter/ErrorMeter.h"
 #include "weft/fitter/FitErrors.h"
 #include "weft/fitter/TexelFitter.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {

@@ -6,7 +6,7 @@
 #include "weft/core/HemisphereTriangulation.h"
 #include "weft/core/Result.h"
 #include "weft/fitter/FieldFit.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

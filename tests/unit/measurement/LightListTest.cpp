@@ -8,7 +8,7 @@
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/io/ImageFile.h"
 
 namespace weft {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "weft/io/BtfWriter.h"
+#include "weft/measurement/BtfWriter.h"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "ParallelTry.h"
+#include "weft/io/ParallelTry.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Direction.h"

@@ -1,4 +1,4 @@
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 #include <algorithm>
 #include <optional>

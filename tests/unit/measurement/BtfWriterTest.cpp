@@ -1,4 +1,4 @@
-#include "weft/io/BtfWriter.h"
+#include "weft/measurement/BtfWriter.h"
 
 #include <gmock/gmock.h>
 #include <zip.h>

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "ParallelTry.h"
+#include "weft/io/ParallelTry.h"
 #include "weft/core/Contract.h"
 #include "weft/io/ImageFile.h"
 

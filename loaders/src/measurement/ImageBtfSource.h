@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "FileCollection.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "weft/core/Result.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

@@ -1,9 +1,9 @@
-#include "weft/io/SampleRows.h"
+#include "weft/measurement/SampleRows.h"
 
 #include <fmt/format.h>
 
 #include "weft/core/Contract.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 

@@ -9,7 +9,7 @@
 
 #include "weft/core/Color.h"
 #include "weft/core/Result.h"
-#include "weft/io/SampleRows.h"
+#include "weft/measurement/SampleRows.h"
 
 namespace weft {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "FileCollection.h"
-#include "weft/io/BtfSource.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 
