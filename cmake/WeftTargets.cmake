@@ -32,14 +32,14 @@ function(weft_install_library name)
 endfunction()
 
 # weft_library(NAME [INTERNAL] [USES libraries...] [PRIVATE libraries...])
-# The library weft::NAME from src/NAME/*.cpp, or from src/*.cpp where a folder holds one library. INTERNAL: not installed.
+# The library weft::NAME from src/NAME, or from src where a folder holds one library. INTERNAL: not installed.
 function(weft_library name)
   cmake_parse_arguments(ARG "INTERNAL" "" "USES;PRIVATE" ${ARGN})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src)
   if(IS_DIRECTORY ${folder}/${name})
     set(folder ${folder}/${name})
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
   add_library(weft_${name} STATIC ${sources})
   set_target_properties(weft_${name} PROPERTIES LINKER_LANGUAGE CXX)
   add_library(weft::${name} ALIAS weft_${name})

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "weft/fitter/BakedBtf.h"
-#include "weft/fitter/BtfBaker.h"
-#include "weft/fitter/Pattern.h"
+#include "weft/baking/BakedBtf.h"
+#include "weft/baking/BtfBaker.h"
+#include "weft/baking/Pattern.h"
 #include "weft/tool/Tool.h"
 
 namespace {

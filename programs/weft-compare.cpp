@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/AtomicFile.h"
-#include "weft/fitter/Comparison.h"
 #include "weft/measurement/BtfSource.h"
+#include "weft/report/Comparison.h"
 #include "weft/tool/Tool.h"
 
 namespace {

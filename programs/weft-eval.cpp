@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/Direction.h"
-#include "weft/fitter/FieldEvaluation.h"
-#include "weft/measurement/BtfSource.h"
+#include "weft/evaluation/FieldEvaluation.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/measurement/BtfSource.h"
+#include "weft/report/FieldReport.h"
 #include "weft/tool/Tool.h"
 
 namespace {

@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "weft/fitter/FieldEvaluation.h"
+#include "weft/evaluation/FieldEvaluation.h"
 #include "weft/fitter/FieldFit.h"
-#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/measurement/BtfSource.h"
+#include "weft/report/FieldReport.h"
 #include "weft/tool/ProcessGroup.h"
 #include "weft/tool/Tool.h"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/measurement/BtfSource.h"
 #include "weft/tool/Tool.h"
 
 namespace {

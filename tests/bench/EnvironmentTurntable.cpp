@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "EnvironmentReference.h"
+#include "weft/baking/ReferenceRenderer.h"
 #include "weft/core/Color.h"
-#include "weft/fitter/EnvironmentReference.h"
+#include "weft/evaluation/RawBtf.h"
 #include "weft/fitter/FieldFit.h"
-#include "weft/fitter/RawBtf.h"
-#include "weft/fitter/ReferenceRenderer.h"
 #include "weft/io/EnvironmentFile.h"
 #include "weft/scenegraph/Shapes.h"
 

@@ -12,8 +12,8 @@
 #include <random>
 
 #include "weft/core/Color.h"
-#include "weft/measurement/BtfSource.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace {
 

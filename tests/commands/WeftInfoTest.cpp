@@ -7,9 +7,9 @@
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
-#include "weft/measurement/BtfWriter.h"
 #include "weft/io/ImageFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/measurement/BtfWriter.h"
 
 namespace weft {
 namespace {

@@ -4,13 +4,13 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "EnvironmentReference.h"
 #include "GlTest.h"
 #include "MemoryBtf.h"
 #include "TestSupport.h"
+#include "weft/baking/ReferenceRenderer.h"
 #include "weft/core/ImageComparison.h"
-#include "weft/fitter/EnvironmentReference.h"
 #include "weft/fitter/FieldFit.h"
-#include "weft/fitter/ReferenceRenderer.h"
 #include "weft/io/EnvironmentFile.h"
 #include "weft/materials/BTFMaterial.h"
 #include "weft/materials/ImageBasedLight.h"

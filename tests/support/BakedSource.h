@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "TestSupport.h"
-#include "weft/fitter/BtfBaker.h"
+#include "weft/baking/BtfBaker.h"
 #include "weft/measurement/BtfSource.h"
 
 namespace weft::test {

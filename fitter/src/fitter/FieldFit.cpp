@@ -11,7 +11,7 @@
 
 #include "FittedRows.h"
 #include "TexelJob.h"
-#include "weft/fitter/HoldOut.h"
+#include "weft/evaluation/HoldOut.h"
 
 namespace weft {
 namespace {
@@ -73,16 +73,6 @@ class RowCounter {
 };
 
 }  // namespace
-
-Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source) {
-  if (!wanted) return Crop{0, 0, source.width, source.height};
-  const Crop& c = *wanted;
-  if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.width > source.width - c.x ||
-      c.height > source.height - c.y)
-    return fail(fmt::format("the crop {} {} {} {} is not inside the {} x {} texels", c.x, c.y, c.width,
-                            c.height, source.width, source.height));
-  return c;
-}
 
 Result<void> FitOptions::validate() const {
   if (memory < (std::size_t{64} << 20))

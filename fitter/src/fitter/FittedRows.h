@@ -7,7 +7,7 @@
 
 #include "weft/core/FloatImage.h"
 #include "weft/core/Result.h"
-#include "weft/fitter/ErrorMeter.h"
+#include "weft/evaluation/ErrorMeter.h"
 
 namespace weft {
 

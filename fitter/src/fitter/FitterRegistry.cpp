@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "BumpFitter.h"
-#include "LafFitter.h"
-#include "RfnlFitter.h"
-#include "RfpFitter.h"
+#include "models/BumpFitter.h"
+#include "models/LafFitter.h"
+#include "models/RfnlFitter.h"
+#include "models/RfpFitter.h"
 #include "weft/fitter/TexelFitter.h"
 
 namespace weft {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "FittedRows.h"
-#include "TexelSamples.h"
-#include "weft/fitter/ErrorMeter.h"
+#include "weft/evaluation/ErrorMeter.h"
+#include "weft/evaluation/TexelSamples.h"
 #include "weft/fitter/FieldFit.h"
 
 namespace weft {

@@ -16,8 +16,8 @@
 
 #include "ExrPart.h"
 #include "FieldManifest.h"
-#include "weft/io/ParallelTry.h"
 #include "weft/core/AtomicFile.h"
+#include "weft/io/ParallelTry.h"
 
 namespace weft {
 namespace {

@@ -9,11 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "weft/io/ParallelTry.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Direction.h"
 #include "weft/io/ImageFile.h"
+#include "weft/io/ParallelTry.h"
 
 namespace weft {
 namespace {

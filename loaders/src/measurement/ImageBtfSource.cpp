@@ -7,9 +7,9 @@
 #include <cstring>
 #include <new>
 
-#include "weft/io/ParallelTry.h"
 #include "weft/core/Contract.h"
 #include "weft/io/ImageFile.h"
+#include "weft/io/ParallelTry.h"
 
 namespace weft {
 namespace {

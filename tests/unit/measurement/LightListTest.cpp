@@ -8,8 +8,8 @@
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
-#include "weft/measurement/BtfSource.h"
 #include "weft/io/ImageFile.h"
+#include "weft/measurement/BtfSource.h"
 
 namespace weft {
 namespace {

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "weft/chunks/ShaderDefines.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Result.h"
+#include "weft/shaders/ShaderDefines.h"
 
 namespace weft {
 

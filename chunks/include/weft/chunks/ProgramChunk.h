@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "weft/chunks/Chunk.h"
-#include "weft/chunks/ShaderSource.h"
+#include "weft/shaders/ShaderSource.h"
 
 namespace weft {
 

@@ -7,21 +7,14 @@
 
 #include "weft/core/Progress.h"
 #include "weft/core/Result.h"
-#include "weft/fitter/ErrorMeter.h"
-#include "weft/fitter/FitErrors.h"
+#include "weft/evaluation/ErrorMeter.h"
+#include "weft/evaluation/FitErrors.h"
 #include "weft/fitter/TexelFitter.h"
 #include "weft/measurement/BtfSource.h"
+#include "weft/measurement/Crop.h"
 #include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {
-
-/// A rectangle of texels; row 0 is the top.
-struct Crop {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
-/// The texels to work on: all without a wish. Fails on a rectangle that is not inside the measurement.
-Result<Crop> checkedCrop(const std::optional<Crop>& wanted, const BtfDescription& source);
 
 /// The values that a fit minimises the errors of.
 enum class FitSpace {

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "weft/chunks/ShaderDefines.h"
 #include "weft/chunks/State.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Material.h"
+#include "weft/shaders/ShaderDefines.h"
 
 namespace weft {
 

@@ -1,0 +1,127 @@
+#include "weft/evaluation/ErrorMeter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "weft/core/BatchEncoding.h"
+
+namespace weft {
+namespace {
+
+// Directions of a file have gone through text, so they may differ in the last bit.
+std::vector<bool> amongOthers(const std::vector<glm::vec3>& directions,
+                              const std::vector<glm::vec3>& others) {
+  std::vector<bool> result;
+  for (glm::vec3 direction : directions)
+    result.push_back(std::ranges::any_of(
+        others, [&](glm::vec3 other) { return glm::distance(direction, other) < 1e-4f; }));
+  return result;
+}
+
+}  // namespace
+
+FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors::*part) {
+  std::vector<TexelErrors> errors;
+  for (const SplitErrors& texel : texels) errors.push_back(texel.*part);
+  return summarize(errors);
+}
+
+ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& description,
+                       const BtfDescription& measured)
+    : formula_(std::move(formula)),
+      views_(measured.views),
+      lights_(measured.lights),
+      encoding_(measured.encoding),
+      viewIsFitted_(amongOthers(measured.views, description.views)),
+      lightIsFitted_(amongOthers(measured.lights, description.lights)),
+      modelledLights_(formula_.modelledLights(measured.lights)),
+      layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
+  for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
+    layers_.push_back(formula_.layersAround(direction, direction));
+  runs_ = findRuns();
+  const auto notAll = [](const std::vector<bool>& flags) {
+    return std::ranges::find(flags, false) != flags.end();
+  };
+  holdsOut_ = notAll(viewIsFitted_) || notAll(lightIsFitted_);
+}
+
+// The layers' numbers and weights around a view, or light.
+template <class Function>
+void ErrorMeter::forEachLayer(std::size_t direction, std::span<const float> layers,
+                              const Function& function) const {
+  if (formula_.layerCount() == 0) return function(layers, 1.0f);
+  const DirectionWeights& around = layers_[direction];
+  const std::size_t channels = layers.size() / static_cast<std::size_t>(formula_.layerCount());
+  for (int k = 0; k < 3; ++k) {
+    // Measured directions are layers themselves, but for rounding.
+    if (around.weight[k] < 1e-4f) continue;
+    const auto index = static_cast<std::size_t>(around.index[static_cast<std::size_t>(k)]);
+    function(layers.subspan(index * channels, channels),
+             around.weight[k] > 0.9999f ? 1.0f : around.weight[k]);
+  }
+}
+
+void ErrorMeter::evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
+                              std::span<glm::vec3> values) const {
+  if (layersAreLights_) {
+    std::ranges::fill(values, glm::vec3(0.0f));
+    for (std::size_t light = 0; light < lights_.size(); ++light)
+      forEachLayer(light, layers, [&](std::span<const float> layer, float weight) {
+        values[light] += weight * formula_.evaluate(shared, layer, lights_[light], views_[view]);
+      });
+    return;
+  }
+  bool isFirst = true;
+  std::vector<glm::vec3> ofLayer;
+  forEachLayer(view, layers, [&](std::span<const float> layer, float weight) {
+    if (isFirst) {
+      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], values);
+      if (weight != 1.0f)
+        for (glm::vec3& value : values) value *= weight;
+    } else {
+      ofLayer.resize(values.size());
+      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], ofLayer);
+      for (std::size_t light = 0; light < values.size(); ++light) values[light] += weight * ofLayer[light];
+    }
+    isFirst = false;
+  });
+}
+
+std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
+  std::vector<Run> runs;
+  for (std::size_t view = 0; view < views_.size(); ++view)
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+      const bool isFitted = viewIsFitted_[view] && lightIsFitted_[light];
+      if (light == 0 || runs.back().isFitted != isFitted) runs.push_back({view, light, 0, isFitted});
+      ++runs.back().count;
+    }
+  return runs;
+}
+
+SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const float> layers,
+                                std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const {
+  const float grazingZ = std::cos(glm::radians(59.9f));
+  const std::size_t lightCount = lights_.size();
+  SplitErrors errors;
+  std::vector<glm::vec3> model(2 * lightCount);
+  const std::span<glm::vec3> linearModel = std::span(model).first(lightCount);
+  const std::span<glm::vec3> storedModel = std::span(model).last(lightCount);
+  for (const Run& run : runs_) {
+    if (run.firstLight == 0) {
+      evaluateView(shared, layers, run.view, linearModel);
+      std::ranges::copy(linearModel, storedModel.begin());
+      encodeAll(encoding_, floatsOf(storedModel));
+    }
+    const std::size_t from = run.view * lightCount + run.firstLight;
+    (run.isFitted ? errors.fitted : errors.heldOut)
+        .add({.linear = linear.subspan(from, run.count), .stored = stored.subspan(from, run.count)},
+             {.linear = linearModel.subspan(run.firstLight, run.count),
+              .stored = storedModel.subspan(run.firstLight, run.count)},
+             views_[run.view].z < grazingZ);
+  }
+  return errors;
+}
+
+}  // namespace weft

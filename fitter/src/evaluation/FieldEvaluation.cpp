@@ -1,0 +1,95 @@
+#include "weft/evaluation/FieldEvaluation.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+#include "weft/core/Direction.h"
+#include "weft/evaluation/TexelSamples.h"
+
+namespace weft {
+namespace {
+
+/// Pairs that show most of what there is to see: light along and across the view, high and low.
+struct ShownPair {
+  std::size_t view, light;
+};
+
+std::vector<ShownPair> shownPairs(const BtfDescription& measured) {
+  std::vector<ShownPair> pairs;
+  for (const auto& [view, light] : {std::pair(directionFromDegrees(0, 0), directionFromDegrees(45, 180)),
+                                    std::pair(directionFromDegrees(45, 0), directionFromDegrees(30, 90)),
+                                    std::pair(directionFromDegrees(75, 0), directionFromDegrees(60, 180))})
+    pairs.push_back({nearestDirection(measured.views, view), nearestDirection(measured.lights, light)});
+  return pairs;
+}
+
+/// The parameters of one texel as ErrorMeter wants them, `[layer][channel]`.
+std::vector<float> layersOf(const ReflectanceField& field, int x, int y) {
+  std::vector<float> numbers;
+  for (int layer = 0; layer < field.layers().layers(); ++layer)
+    std::ranges::copy(field.layers().texel(x, y, layer), std::back_inserter(numbers));
+  return numbers;
+}
+
+void put(FloatImage& image, int x, int y, glm::vec3 rgb) {
+  for (int channel = 0; channel < 3; ++channel) image.at(x, y, channel) = rgb[channel];
+}
+
+}  // namespace
+
+Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSource& source,
+                                      const std::optional<Crop>& wanted, std::size_t memory,
+                                      const Progress& progress) {
+  const BtfDescription& measured = source.description();
+  WEFT_TRY(const Crop crop, checkedCrop(wanted, measured));
+  if (crop.width != field.width() || crop.height != field.height())
+    return fail(fmt::format("the field has {} x {} texels and the measurement {} x {}", field.width(),
+                            field.height(), crop.width, crop.height),
+                measured.name, "name the texels that were fitted: --crop");
+  const ErrorMeter meter(field.formula(), field.description(), measured);
+  FieldEvaluation evaluation;
+  evaluation.texels.resize(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height));
+  const std::vector<ShownPair> shown = shownPairs(measured);
+  for (const ShownPair pair : shown)
+    evaluation.pairs.push_back({measured.views[pair.view], measured.lights[pair.light],
+                                FloatImage(crop.width, crop.height, {"R", "G", "B"}),
+                                FloatImage(crop.width, crop.height, {"R", "G", "B"})});
+
+  const int rowsAtOnce = std::min(source.rowsWithin(memory), crop.height);
+  SampleRows rows;
+  for (int first = 0; first < crop.height; first += rowsAtOnce) {
+    const int count = std::min(rowsAtOnce, crop.height - first);
+    WEFT_TRY_VOID(source.readRows(crop.y + first, count, rows));
+    tbb::parallel_for(0, count * crop.width, [&](int i) {
+      const int x = i % crop.width;
+      const int y = first + i / crop.width;
+      const TexelSamples samples = texelSamples(rows, measured, y - first, crop.x + x);
+      evaluation.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
+                        static_cast<std::size_t>(x)] =
+          meter.measure(field.shared().texel(x, y), layersOf(field, x, y), samples.linear, samples.stored);
+      for (std::size_t k = 0; k < shown.size(); ++k) {
+        PairPictures& pair = evaluation.pairs[k];
+        put(pair.measured, x, y, samples.linear[shown[k].view * measured.lights.size() + shown[k].light]);
+        put(pair.model, x, y, field.evaluate(x, y, pair.light, pair.view));
+      }
+    });
+    if (progress) progress(static_cast<double>(first + count) / crop.height);
+  }
+  evaluation.errors = summarize(evaluation.texels, &SplitErrors::fitted);
+  if (meter.holdsOut()) evaluation.heldOut = summarize(evaluation.texels, &SplitErrors::heldOut);
+  return evaluation;
+}
+
+FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int height) {
+  FloatImage map(width, height, {"eps"});
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const TexelErrors& fitted = texels[i].fitted;
+    map.values()[i] = fitted.sums[0][0].absolute / std::max(static_cast<float>(fitted.pairs), 1.0f);
+  }
+  return map;
+}
+
+}  // namespace weft
