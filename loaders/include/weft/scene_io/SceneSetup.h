@@ -1,0 +1,75 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/core/Result.h"
+#include "weft/materials/BTFMaterial.h"
+#include "weft/materials/ImageBasedLight.h"
+#include "weft/scene_io/GltfLoader.h"
+#include "weft/scenegraph/Camera.h"
+#include "weft/scenegraph/Transform.h"
+
+namespace weft {
+
+/// What to look at, from where, in which light.
+struct SceneOptions {
+  struct PointOfView {
+    glm::vec3 eye;
+    glm::vec3 target;
+  };
+  /// A point light under which white at the scene's centre that faces it shows `color`.
+  struct Lamp {
+    glm::vec3 place;
+    glm::vec3 color;
+  };
+
+  std::string scene;  ///< a glTF file, or shape:plane, shape:sphere, shape:cloth
+  std::map<std::string, std::string> materialFiles{};  ///< a `.rf.exr` a material; "*" for all not named
+  BTFMaterialOptions btf{};
+  std::optional<double> time{};            ///< seconds after the start of an animation
+  std::string animation{};                 ///< which one; empty: the first
+  std::vector<Lamp> lamps{};               ///< instead of the file's lights, if any
+  std::string cameraName{};                ///< empty: the file's first, or all of the scene
+  std::optional<PointOfView> viewpoint{};  ///< instead of a name
+  float aspect = 4.0f / 3.0f;              ///< of the picture: width / height
+  bool turns = false;                      ///< a camera of our own keeps all in the picture while it turns
+  std::string environment{};               ///< a file or a built-in name; empty for none
+  double environmentRotation = 0.0;        ///< degrees, clockwise seen from above
+  LobeLookup environmentLobes = LobeLookup::Fitted;
+};
+
+/// A scene that is ready to be drawn: what weft-render and viewers show.
+///
+/// Without lamps, lights of the file and an environment, one lamp stands above left of the camera.
+class SceneSetup {
+ public:
+  /// Fails, with file and reason, as loadGltf(), loadBTFMaterial() and environmentNamed() do, and on names of
+  /// shapes, materials and cameras that are not there. Touches no GL.
+  static Result<SceneSetup> create(const SceneOptions& options);
+
+  const Node& root() const { return *root_; }
+  const Camera& camera() const { return camera_; }
+  const GltfScene& scene() const { return scene_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
+  /// Turns the scene around its vertical axis, counter-clockwise seen from above; lights and camera stay.
+  void turn(float radians);
+
+ private:
+  explicit SceneSetup(GltfScene scene);
+  Result<void> chooseCamera(const SceneOptions& options);
+  void addLamps(const SceneOptions& options);
+  Result<void> addEnvironment(const SceneOptions& options);
+
+  GltfScene scene_;
+  std::shared_ptr<Node> root_ = std::make_shared<Node>();  ///< of what stays while the scene turns, too
+  std::shared_ptr<Transform> turn_ = std::make_shared<Transform>();
+  Camera camera_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace weft

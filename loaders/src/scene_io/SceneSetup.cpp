@@ -1,0 +1,169 @@
+#include "weft/scene_io/SceneSetup.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/ext/scalar_constants.hpp>
+#include <glm/geometric.hpp>
+
+#include "weft/io/EnvironmentFile.h"
+#include "weft/materials/LambertMaterial.h"
+#include "weft/scene_io/BTFMaterialLoader.h"
+#include "weft/scenegraph/Geometry.h"
+#include "weft/scenegraph/Light.h"
+#include "weft/scenegraph/MaterialGroup.h"
+#include "weft/scenegraph/Shapes.h"
+
+namespace weft {
+namespace {
+
+constexpr std::string_view kShapePrefix = "shape:";
+const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
+
+Result<GltfScene> makeShape(const std::string& name, const GltfOptions& options) {
+  std::shared_ptr<const Mesh> mesh;
+  if (name == "plane") mesh = std::make_shared<const Mesh>(makePlane());
+  if (name == "sphere") mesh = std::make_shared<const Mesh>(makeSphere());
+  if (name == "cloth") mesh = std::make_shared<const Mesh>(makeDrapedCloth());
+  if (!mesh)
+    return fail("there is no such shape", "shape:" + name, "try shape:plane, shape:sphere or shape:cloth");
+  std::shared_ptr<const Material> material;
+  if (const auto found = options.replacements.find("*"); found != options.replacements.end())
+    material = found->second;
+  else
+    material = std::make_shared<LambertMaterial>(
+        LambertOptions{.baseColor = glm::vec4(1.0f), .baseColorTexture = nullptr, .doubleSided = true});
+  GltfScene scene;
+  scene.root = std::make_shared<Node>(std::make_shared<MaterialGroup>(material));
+  scene.root->addChild(std::make_shared<Geometry>(mesh), name);
+  scene.bounds = boundsOf(*scene.root);
+  return scene;
+}
+
+Result<GltfScene> loadScene(const SceneOptions& options) {
+  const bool isShape = options.scene.starts_with(kShapePrefix);
+  BTFMaterialOptions btf = options.btf;
+  btf.doubleSided = isShape;  // the inside of the cloth shows
+  GltfOptions gltf;
+  gltf.btf = btf;
+  gltf.lights = options.lamps.empty();
+  gltf.time = options.time;
+  gltf.animation = options.animation;
+  for (const auto& [name, file] : options.materialFiles) {
+    WEFT_TRY(gltf.replacements[name], loadBTFMaterial(file, btf));
+  }
+  WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), gltf)
+                                    : loadGltf(options.scene, gltf));
+  for (const auto& [name, file] : options.materialFiles)
+    if (name != "*" &&
+        std::find(scene.materials.begin(), scene.materials.end(), name) == scene.materials.end())
+      return fail(
+          "there is no material \"" + name + "\"", options.scene,
+          scene.materials.empty() ? "use *=" + file : fmt::format("its materials are {}", scene.materials));
+  return scene;
+}
+
+// A camera at a place of its own, whose clipping planes enclose the scene.
+Camera cameraAt(const SceneOptions::PointOfView& viewpoint, const Bounds& bounds) {
+  const glm::vec3 direction = glm::normalize(viewpoint.target - viewpoint.eye);
+  const bool vertical = std::abs(direction.y) > 0.999f;
+  Camera camera =
+      Camera::lookAt(viewpoint.eye, viewpoint.target, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
+  const float distance = glm::distance(viewpoint.eye, bounds.center());
+  const float radius = std::max(bounds.radius(), 1e-6f);
+  camera.farPlane = distance + 1.01f * radius;
+  camera.nearPlane = std::max(distance - 1.01f * radius, 1e-3f * camera.farPlane);
+  return camera;
+}
+
+// The cylinder that a scene does not leave when it turns.
+std::shared_ptr<Node> cylinderAround(const Bounds& bounds) {
+  const glm::vec3 half = bounds.maximum - bounds.center();
+  Mesh cylinder = makeSphere(16);
+  for (glm::vec3& p : cylinder.positions) {
+    const glm::vec2 across(p.x, p.z);
+    const glm::vec2 rim = across * (std::hypot(half.x, half.z) / std::max(glm::length(across), 1e-6f));
+    p = bounds.center() + glm::vec3(rim.x, std::copysign(half.y, p.y), rim.y);
+  }
+  return std::make_shared<Node>(std::make_shared<Geometry>(std::make_shared<Mesh>(std::move(cylinder))));
+}
+
+}  // namespace
+
+SceneSetup::SceneSetup(GltfScene scene) : scene_(std::move(scene)) {
+  root_->addChild(turn_)->addChild(scene_.root);
+}
+
+Result<SceneSetup> SceneSetup::create(const SceneOptions& options) {
+  WEFT_TRY(GltfScene scene, loadScene(options));
+  SceneSetup setup(std::move(scene));
+  for (const std::string& warning : setup.scene_.warnings)
+    setup.warnings_.push_back(fmt::format("{}: {}", options.scene, warning));
+  WEFT_TRY_VOID(setup.chooseCamera(options));
+  if (!options.environment.empty()) WEFT_TRY_VOID(setup.addEnvironment(options));
+  setup.addLamps(options);
+  return setup;
+}
+
+Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
+  if (options.viewpoint) {
+    camera_ = cameraAt(*options.viewpoint, scene_.bounds);
+    return {};
+  }
+  for (const GltfScene::NamedCamera& named : scene_.cameras)
+    if (options.cameraName.empty() || named.name == options.cameraName) {
+      camera_ = named.camera;
+      return {};
+    }
+  if (options.cameraName.empty()) {
+    const std::shared_ptr<Node> shown = options.turns ? cylinderAround(scene_.bounds) : scene_.root;
+    camera_ = frame(*shown, kDefaultView, options.aspect);
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const GltfScene::NamedCamera& named : scene_.cameras) names.push_back(named.name);
+  return fail("there is no camera \"" + options.cameraName + "\"", options.scene,
+              fmt::format("its cameras are {}", names));
+}
+
+// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their colour.
+void SceneSetup::addLamps(const SceneOptions& options) {
+  const glm::vec3 center = scene_.bounds.center();
+  std::vector<SceneOptions::Lamp> lamps = options.lamps;
+  if (lamps.empty() && options.environment.empty() && scene_.lights == 0) {
+    const glm::mat3 toWorld = glm::transpose(glm::mat3(camera_.view));
+    lamps.push_back(
+        {center + 4.0f * std::max(scene_.bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
+         glm::vec3(1.0f)});
+  }
+  for (const SceneOptions::Lamp& lamp : lamps) {
+    const glm::vec3 offset = lamp.place - center;
+    const glm::vec3 intensity = glm::pi<float>() * glm::dot(offset, offset) * lamp.color;
+    root_->addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), lamp.place)))
+        ->addChild(std::make_shared<PointLight>(intensity));
+  }
+}
+
+Result<void> SceneSetup::addEnvironment(const SceneOptions& options) {
+  std::vector<std::string> found;
+  WEFT_TRY(const Environment environment, environmentNamed(options.environment, found));
+  for (const std::string& warning : found) warnings_.push_back(options.environment + ": " + warning);
+  // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
+  const float angle = glm::radians(-static_cast<float>(std::fmod(options.environmentRotation, 360.0)));
+  const PrefilteredEnvironment prefiltered = prefilter(environment, cacheFolder());
+  root_->addChild(std::make_shared<Transform>(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))))
+      ->addChild(makeEnvironmentLight(environment, prefiltered, options.environmentLobes));
+  return {};
+}
+
+void SceneSetup::turn(float radians) {
+  const glm::vec3 center = scene_.bounds.center();
+  const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), radians, glm::vec3(0, 1, 0));
+  turn_->setMatrix(glm::translate(glm::mat4(1.0f), center) * turned *
+                   glm::translate(glm::mat4(1.0f), -center));
+}
+
+}  // namespace weft

@@ -1,0 +1,155 @@
+#include "SceneArguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+namespace weft {
+namespace {
+
+constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
+// Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
+constexpr float kLargestNumber = 1e9f;
+
+std::optional<float> parsed(const std::string& text) {
+  float number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<std::vector<float>> numbers(const std::string& text) {
+  std::vector<float> values;
+  std::stringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) {
+    const std::optional<float> value = parsed(word);
+    if (!value || !(std::abs(*value) <= kLargestNumber)) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<glm::vec3> vectorFrom(const std::string& text) {
+  const auto values = numbers(text);
+  if (!values || values->size() != 3 || text.ends_with(',')) return std::nullopt;
+  return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+/// "A:B" as its two sides; B is empty without a colon.
+std::pair<std::string, std::string> splitAt(const std::string& text, char separator) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return {text, {}};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+bool readCamera(const std::string& text, SceneOptions& options) {
+  const auto [eyeText, targetText] = splitAt(text, ':');
+  const auto eye = vectorFrom(eyeText), target = vectorFrom(targetText);
+  // Squared, their distance must not vanish.
+  if (eye && target && glm::distance(*eye, *target) > 1e-9f)
+    options.viewpoint = {*eye, *target};
+  else if (eye)
+    return false;  // a place without a target is no name
+  else
+    options.cameraName = text;
+  return true;
+}
+
+bool readLamp(const std::string& text, SceneOptions& options) {
+  const auto [placeText, colorText] = splitAt(text, ':');
+  const auto place = vectorFrom(placeText);
+  const auto color = colorText.empty() ? glm::vec3(1.0f) : vectorFrom(colorText);
+  if (!place || !color || glm::any(glm::lessThan(*color, glm::vec3(0.0f)))) return false;
+  options.lamps.push_back({*place, *color});
+  return true;
+}
+
+bool readMaterial(const std::string& text, SceneOptions& options) {
+  const auto [name, file] = splitAt(text, '=');
+  if (file.empty()) return false;
+  options.materialFiles[name] = file;
+  return true;
+}
+
+}  // namespace
+
+void SceneArguments::addTo(CLI::App& options) {
+  options.add_option("SCENE", scene,
+                     "a .gltf or .glb file, or shape:plane (side 1 at z = 0, facing +Z: columns of the "
+                     "material's image run along +X, its rows down, along -Y), shape:sphere (radius 1, "
+                     "poles on Y), shape:cloth (draped over a ball; up is +Y)");
+  options.add_option("--camera", camera,
+                     "a camera of the file, or x,y,z:tx,ty,tz: from where to what; default: the file's "
+                     "first, or all of the scene");
+  options
+      .add_option(
+          "--light", lights,
+          "x,y,z[:r,g,b]: a point light under which white at the scene's centre shows r,g,b (1,1,1); "
+          "repeatable, instead of the file's lights; default without those: one above left of the camera")
+      ->allow_extra_args(false);
+  options
+      .add_option("--material", materials,
+                  "NAME=FILE.rf.exr: shows a material of the scene as this reflectance field; * for all that "
+                  "are not named; repeatable")
+      ->allow_extra_args(false);
+  options
+      .add_option("--uv-scale", uvScale, "repetitions of a reflectance field per unit of texture coordinates")
+      ->capture_default_str();
+  options.add_option("--views", views, "measured views to interpolate between: 1 (the nearest) or 3")
+      ->check(CLI::IsMember({1, 3}))
+      ->capture_default_str();
+  options
+      .add_option(
+          "--filter", filter,
+          "what is between texels: nearest, or bilinear, which is smooth and costs four times as much")
+      ->check(CLI::IsMember({"nearest", "bilinear"}))
+      ->capture_default_str();
+  options.add_option("--env", environment,
+                     "light from all sides, and background: an equirectangular .hdr or .exr, or the built-in "
+                     "studio or sky; together with lights that are asked for or the file's");
+  options.add_option("--env-rotation", environmentRotation,
+                     "degrees by which the environment turns around Y, clockwise seen from above; at 0 its "
+                     "middle lies along -Z");
+  options
+      .add_option("--env-lobes", environmentLobes,
+                  "how lobes gather its light: fitted, or paper, as Meseth et al. do, for comparison")
+      ->check(CLI::IsMember({"fitted", "paper"}))
+      ->capture_default_str();
+  options.add_option("--time", time, "shows the scene so many seconds after the start of its animation");
+  options.add_option("--animation", animation, "which animation; default: the file's first");
+}
+
+tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
+  SceneOptions options;
+  if (scene.empty()) return tl::unexpected<std::string>("SCENE is required");
+  options.scene = scene;
+  // CLI11's ranges let "nan" pass.
+  if (!(uvScale > 0.0f && uvScale <= kLargestUvScale))
+    return tl::unexpected(fmt::format("--uv-scale takes a number above 0, up to {}", kLargestUvScale));
+  if (time && !std::isfinite(*time)) return tl::unexpected<std::string>("--time takes seconds");
+  if (!std::isfinite(environmentRotation)) return tl::unexpected<std::string>("--env-rotation takes degrees");
+  if (!time && !animation.empty()) return tl::unexpected<std::string>("--animation needs a --time");
+  options.time = time;
+  options.animation = animation;
+  if (!readCamera(camera, options))
+    return tl::unexpected<std::string>("--camera takes a name or x,y,z:tx,ty,tz");
+  for (const std::string& light : lights)
+    if (!readLamp(light, options)) return tl::unexpected<std::string>("--light takes x,y,z or x,y,z:r,g,b");
+  for (const std::string& material : materials)
+    if (!readMaterial(material, options))
+      return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");
+  options.environment = environment;
+  options.environmentRotation = environmentRotation;
+  options.environmentLobes = environmentLobes == "paper" ? LobeLookup::Paper : LobeLookup::Fitted;
+  options.btf = {.textureScale = glm::vec2(uvScale),
+                 .interpolatedViews = views,
+                 .filter = filter == "nearest" ? TexelFilter::Nearest : TexelFilter::Bilinear,
+                 .preparedForEnvironments = !environment.empty() && environmentLobes == "fitted"};
+  return options;
+}
+
+}  // namespace weft

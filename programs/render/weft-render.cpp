@@ -1,0 +1,216 @@
+// Renders a glTF scene or one of the built-in shapes, without a window, to a picture.
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "SceneArguments.h"
+#include "weft/core/ToneMapping.h"
+#include "weft/io/ExrFile.h"
+#include "weft/io/ImageFile.h"
+#include "weft/scene_io/SceneSetup.h"
+#include "weft/scenegraph/HeadlessWindow.h"
+#include "weft/scenegraph/RenderAction.h"
+#include "weft/tool/Tool.h"
+
+namespace {
+
+using namespace weft;
+
+constexpr int kSupersampling = 2;
+constexpr int kLargestSide = 8192;
+constexpr double kLargestExposure = 60.0;
+// Linear; 0x28 of 255 in sRGB.
+const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
+
+struct Arguments {
+  SceneArguments scene;
+  std::string output;
+  std::vector<std::string> size{"800x600"};
+  double exposure = 0.0;
+  std::string toneMap;
+  std::string show = "all";
+  int turntable = 0;
+  int frames = 0;
+};
+
+struct Size {
+  int width = 0, height = 0;
+};
+
+/// The number that `text` is, and nothing else.
+std::optional<int> parsed(const std::string& text) {
+  int number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<int> sideFrom(const std::string& text) {
+  const std::optional<int> side = parsed(text);
+  return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
+}
+
+/// "--size WxH" or "--size W H", which may have taken the SCENE behind it along; none for anything else.
+std::optional<Size> readSize(std::vector<std::string> words, std::string& scene) {
+  if (const std::size_t cross = words[0].find('x'); cross != std::string::npos) {
+    words.insert(words.begin() + 1, words[0].substr(cross + 1));
+    words[0].resize(cross);
+  }
+  if (words.size() == 3 && scene.empty()) scene = words[2];
+  if (words.size() < 2 || (words.size() == 3 && scene != words[2])) return std::nullopt;
+  const auto width = sideFrom(words[0]), height = sideFrom(words[1]);
+  if (!width || !height) return std::nullopt;
+  return Size{*width, *height};
+}
+
+/// The scene, or what is wrong with the command line.
+tl::expected<SceneOptions, std::string> readOptions(Arguments& arguments, Size& size) {
+  const std::optional<Size> read = readSize(arguments.size, arguments.scene.scene);
+  if (!read) return tl::unexpected(fmt::format("--size takes WxH or W H, 1 to {} pixels", kLargestSide));
+  if (!arguments.output.ends_with(".png") && !arguments.output.ends_with(".exr"))
+    return tl::unexpected<std::string>("--output must end with .png or .exr");
+  if (!(std::abs(arguments.exposure) <= kLargestExposure))
+    return tl::unexpected(fmt::format("--exposure takes up to {} stops", kLargestExposure));
+  auto options = arguments.scene.parse();
+  if (!options) return options;
+  size = *read;
+  options->aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+  options->turns = arguments.turntable > 0;
+  return options;
+}
+
+/// Milliseconds of whole frames, in their order; each ends when GL has finished it.
+Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLContext& context,
+                                       const Node& root, const Camera& camera, const RenderTarget& target,
+                                       const RenderOptions& options) {
+  std::vector<double> times;
+  for (int frame = 0; frame < count; ++frame) {
+    const auto start = std::chrono::steady_clock::now();
+    WEFT_TRY_VOID(renderer.render(context, root, camera, target, options));
+    glFinish();
+    times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  return times;
+}
+
+/// "cloth.png" as "cloth-007.png".
+std::string numbered(const std::string& path, int number) {
+  const std::size_t end = path.size() - 4;
+  return fmt::format("{}-{:03}{}", path.substr(0, end), number, path.substr(end));
+}
+
+Result<void> writePicture(const std::string& path, const FloatImage& picture) {
+  if (path.ends_with(".png")) return writePng(path, picture);
+  return writeExr(path, picture);
+}
+
+nlohmann::ordered_json timesAsJson(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return {{"median", times[times.size() / 2]}, {"min", times.front()}, {"max", times.back()}};
+}
+
+ReflectedPart partOf(const std::string& show) {
+  if (show == "diffuse") return ReflectedPart::Diffuse;
+  return show == "specular" ? ReflectedPart::Specular : ReflectedPart::All;
+}
+
+ToneCurve curveOf(const std::string& name, bool softUnasked) {
+  return name == "soft" || (name.empty() && softUnasked) ? ToneCurve::Soft : ToneCurve::None;
+}
+
+Result<ExitCode> render(const Tool& tool, Arguments arguments) {
+  Size size;
+  const auto sceneOptions = readOptions(arguments, size);
+  if (!sceneOptions) return tool.badUsage(sceneOptions.error());
+  WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
+  if (!tool.quiet())
+    for (const std::string& warning : setup.warnings()) fmt::print(stderr, "weft-render: {}\n", warning);
+
+  WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
+  GLContext& context = window->context();
+  RenderAction renderer;
+  const bool png = arguments.output.ends_with(".png");
+  const bool lit = !sceneOptions->environment.empty();
+  const RenderTarget target(kSupersampling * size.width, kSupersampling * size.height,
+                            png && !lit ? Precision::Half : Precision::Float);  // the sun overflows halfs
+  const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
+  const int pictures = std::max(arguments.turntable, 1);
+  for (int i = 0; i < pictures; ++i) {
+    setup.turn(glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(pictures));
+    WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
+    FloatImage picture = target.read(context, kSupersampling);
+    expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
+    WEFT_TRY_VOID(
+        writePicture(arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output, picture));
+  }
+
+  nlohmann::ordered_json report{{"scene", sceneOptions->scene},
+                                {"output", arguments.output},
+                                {"width", size.width},
+                                {"height", size.height},
+                                {"views", arguments.scene.views},
+                                {"filter", arguments.scene.filter},
+                                {"materials", setup.scene().materials},
+                                {"environment", sceneOptions->environment},
+                                {"warnings", setup.warnings()},
+                                {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
+  if (arguments.frames > 0) {
+    const RenderTarget timed(size.width, size.height);
+    WEFT_TRY_VOID(
+        timeFrames(1, renderer, context, setup.root(), setup.camera(), timed, options));  // makes the target
+    WEFT_TRY(std::vector<double> times,
+             timeFrames(arguments.frames, renderer, context, setup.root(), setup.camera(), timed, options));
+    report["frames"] = arguments.frames;
+    report["frame_ms"] = timesAsJson(std::move(times));
+  }
+  WEFT_TRY_VOID(tool.writeJson(report));
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"weft-render", "Renders a glTF scene or a built-in shape with measured materials to a picture.",
+             "weft-render shape:cloth --material '*=wool.rf.exr' --uv-scale 12 -o wool.png", WEFT_VERSION});
+  Arguments arguments;
+  CLI::App& options = tool.options();
+  arguments.scene.addTo(options);
+  options.add_option("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
+      ->required();
+  options.add_option("--size", arguments.size, "WxH or W H in pixels")->expected(1, 3)->capture_default_str();
+  options
+      .add_option("--exposure", arguments.exposure, "stops: the picture is multiplied by 2 to their power")
+      ->capture_default_str();
+  options
+      .add_option("--tone-map", arguments.toneMap,
+                  "none, or soft: what is brighter than 0.8 is compressed below 1; default: soft for a .png "
+                  "with --env, else none")
+      ->check(CLI::IsMember({"none", "soft"}));
+  options
+      .add_option("--show", arguments.show,
+                  "what surfaces reflect: all, or its diffuse or specular part alone (a polynomial counts as "
+                  "diffuse)")
+      ->check(CLI::IsMember({"all", "diffuse", "specular"}))
+      ->capture_default_str();
+  options
+      .add_option(
+          "--turntable", arguments.turntable,
+          "so many pictures, NAME-000.png and on, while the scene turns once around its vertical axis; "
+          "camera, --light and --env stay")
+      ->check(CLI::Range(1, 1000));
+  options
+      .add_option("--frames", arguments.frames,
+                  "time this many further frames, without supersampling, for --json")
+      ->check(CLI::Range(0, 1000000));
+  return tool.run(argc, argv, [&] { return render(tool, arguments); });
+}
