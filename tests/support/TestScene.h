@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string_view>
 
+#include "TextFile.h"
 #include "weft/scenegraph/Camera.h"
 #include "weft/scenegraph/Geometry.h"
 #include "weft/scenegraph/Material.h"
@@ -38,10 +38,6 @@ inline std::shared_ptr<Node> dressed(std::shared_ptr<const Material> material,
   auto node = std::make_shared<Node>(std::make_shared<MaterialGroup>(std::move(material)));
   node->addChild(std::make_shared<Geometry>(std::move(mesh)));
   return node;
-}
-
-inline void writeText(const std::filesystem::path& path, std::string_view text) {
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 }  // namespace weft::test

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "TestScene.h"
 #include "TestSupport.h"
+#include "TextFile.h"
 
 namespace weft {
 namespace {
