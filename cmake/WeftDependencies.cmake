@@ -5,6 +5,7 @@ find_package(Threads REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip) # its CMake config names programs that are not installed
+pkg_check_modules(libutf8proc REQUIRED IMPORTED_TARGET libutf8proc)
 pkg_check_modules(highway REQUIRED IMPORTED_TARGET libhwy)
 find_package(tl-expected REQUIRED)
 find_package(fmt REQUIRED)

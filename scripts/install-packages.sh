@@ -6,7 +6,7 @@ packages=(
   build-essential cmake ninja-build pkg-config clang-format
   libexpected-dev libfmt-dev libglm-dev libcli11-dev nlohmann-json3-dev
   libepoxy-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri # Mesa's EGL and software renderer
-  libopenexr-dev libimath-dev libpng-dev libzip-dev
+  libopenexr-dev libimath-dev libpng-dev libzip-dev libutf8proc-dev
   libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
   libtinygltf-dev
   libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
