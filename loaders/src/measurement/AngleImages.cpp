@@ -1,13 +1,14 @@
 #include "AngleImages.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
+#include <vector>
 
 #include "AngleName.h"
+#include "FilePath.h"
 #include "ImageBtfSource.h"
 #include "weft/core/Direction.h"
 
@@ -16,68 +17,118 @@ namespace {
 
 using FileOfPair = std::map<AnglePair, int>;
 
-// By the extension; what measurements store in which format decides how their values are encoded.
-std::optional<Encoding> encodingOf(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (name.ends_with(".jpg") || name.ends_with(".jpeg")) return Encoding::Gamma22;
-  if (name.ends_with(".png")) return Encoding::Srgb;
-  return std::nullopt;
-}
-
-struct NamedImage {
-  AnglePair angles;
-  Encoding encoding;
-};
-
-std::optional<NamedImage> imageNamed(std::string_view name) {
-  const auto encoding = encodingOf(std::string(name));
-  const auto angles = anglesFromName(name.substr(name.rfind('/') + 1));
-  if (!encoding || !angles) return std::nullopt;
-  return NamedImage{*angles, *encoding};
+// What measurements store in which format decides how their values are encoded.
+Encoding encodingOf(const std::string& name) {
+  return extensionOf(name) == ".png" ? Encoding::Srgb : Encoding::Gamma22;
 }
 
 struct NamedImages {
   FileOfPair fileOfPair;
   Encoding encoding = Encoding::Gamma22;
+  std::vector<std::string> withoutAngles;
+  std::vector<std::string> ofOtherFormat;
+  std::vector<std::string> belowHorizon;
 };
+
+Result<void> addImage(NamedImages& images, const AnglePair& angles, const FileCollection& files, int index,
+                      const std::string& where) {
+  const std::string& name = files.names()[static_cast<std::size_t>(index)];
+  if (!images.fileOfPair.empty() && encodingOf(name) != images.encoding)
+    return fail("JPEGs and PNGs are mixed, which store different encodings", where + ": " + name);
+  images.encoding = encodingOf(name);
+  const auto [known, isNew] = images.fileOfPair.emplace(angles, index);
+  if (!isNew)
+    return fail(fmt::format("the same light and view as '{}'",
+                            files.names()[static_cast<std::size_t>(known->second)]),
+                where + ": " + name, "remove one of the two");
+  return {};
+}
 
 Result<NamedImages> findImages(const FileCollection& files, const std::string& where) {
   NamedImages images;
-  const std::vector<std::string>& names = files.names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto image = imageNamed(names[i]);
-    if (!image) continue;
-    if (!images.fileOfPair.empty() && image->encoding != images.encoding)
-      return fail("JPEGs and PNGs are mixed, which store different encodings", where + ": " + names[i]);
-    images.encoding = image->encoding;
-    const auto [known, isNew] = images.fileOfPair.emplace(image->angles, static_cast<int>(i));
-    if (!isNew)
-      return fail(
-          fmt::format("the same light and view as '{}'", names[static_cast<std::size_t>(known->second)]),
-          where + ": " + names[i], "remove one of the two");
+  for (std::size_t i = 0; i < files.names().size(); ++i) {
+    const std::string& name = files.names()[i];
+    if (!isAnyImage(name)) continue;
+    const auto angles = anglesFromName(fileNameOf(name));
+    if (!angles)
+      images.withoutAngles.push_back(name);
+    else if (!isReadableImage(name))
+      images.ofOtherFormat.push_back(name);
+    else if (angles->light.theta > 90.0 || angles->view.theta > 90.0)
+      images.belowHorizon.push_back(name);
+    else
+      WEFT_TRY_VOID(addImage(images, *angles, files, static_cast<int>(i), where));
   }
-  if (images.fileOfPair.empty())
-    return fail("there are no images named by their angles", where,
-                "names like 'tl015 pl000 tv030 pv180.jpg' are expected, or one .lp beside its images");
   return images;
 }
 
-// [view][light] -> file; fails on the first pair without one.
-Result<std::vector<int>> completeTable(const FileOfPair& fileOfPair, const std::set<Angles>& views,
-                                       const std::set<Angles>& lights, const std::string& where) {
-  std::vector<int> table;
+tl::unexpected<Error> failNoImages(const NamedImages& images, const std::string& where) {
+  if (!images.ofOtherFormat.empty())
+    return fail("only JPEGs and PNGs are read as measurements, not " + firstOf(images.ofOtherFormat), where,
+                "convert them");
+  std::string what = "there are no images named by their angles";
+  if (!images.belowHorizon.empty())
+    what += ", but below the horizon: " + firstOf(images.belowHorizon);
+  else if (!images.withoutAngles.empty())
+    what += ", but " + firstOf(images.withoutAngles);
+  return fail(what, where,
+              "names like 'tl015 pl000 tv030 pv180.jpg' are expected, or one .lp beside its images");
+}
+
+// What is not part of the measurement although it is an image.
+std::vector<std::string> warningsOf(const NamedImages& images) {
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::vector<std::string>& names, const std::string& reason) {
+    if (!names.empty())
+      warnings.push_back(fmt::format("{} of the images {} not read, {}: {}", names.size(),
+                                     names.size() == 1 ? "is" : "are", reason, firstOf(names)));
+  };
+  add(images.withoutAngles, "whose names do not hold the angles of light and view");
+  add(images.ofOtherFormat, "which are no JPEGs or PNGs");
+  add(images.belowHorizon, "lit or seen from below the horizon");
+  return warnings;
+}
+
+std::string nameOf(const AnglePair& pair) {
+  return fmt::format("light (theta {}, phi {}) and view (theta {}, phi {})", pair.light.theta, pair.light.phi,
+                     pair.view.theta, pair.view.phi);
+}
+
+// Looks no further, because the product of a hostile set's directions is without bound.
+std::vector<std::string> firstMissing(const FileOfPair& fileOfPair, const std::set<Angles>& views,
+                                      const std::set<Angles>& lights) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> missing;
   for (const Angles& view : views)
     for (const Angles& light : lights) {
-      const auto found = fileOfPair.find({light, view});
-      if (found == fileOfPair.end())
-        return fail(fmt::format("no image for light (theta {}, phi {}) and view (theta {}, phi {})",
-                                light.theta, light.phi, view.theta, view.phi),
-                    where,
-                    fmt::format("{} views x {} lights need {} images, {} are there", views.size(),
-                                lights.size(), views.size() * lights.size(), fileOfPair.size()));
-      table.push_back(found->second);
+      if (fileOfPair.contains({light, view})) continue;
+      missing.push_back(nameOf({light, view}));
+      if (missing.size() == kNamed) return missing;
     }
+  return missing;
+}
+
+tl::unexpected<Error> failIncomplete(const NamedImages& images, const std::set<Angles>& views,
+                                     const std::set<Angles>& lights, const std::string& where) {
+  const std::size_t needed = views.size() * lights.size();
+  const std::size_t there = images.fileOfPair.size();
+  const std::vector<std::string> missing = firstMissing(images.fileOfPair, views, lights);
+  std::string what = fmt::format("no image for {}", fmt::join(missing, ", for "));
+  if (needed - there > missing.size())
+    what += fmt::format(" and for {} more pairs", needed - there - missing.size());
+  std::string hint = fmt::format("{} views x {} lights need {} images, {} are there", views.size(),
+                                 lights.size(), needed, there);
+  if (!images.withoutAngles.empty())
+    hint += "; no angles are found in the names of " + firstOf(images.withoutAngles);
+  return fail(what, where, hint);
+}
+
+// [view][light] -> file, of a complete set.
+std::vector<int> tableOf(const FileOfPair& fileOfPair, const std::set<Angles>& views,
+                         const std::set<Angles>& lights) {
+  std::vector<int> table;
+  for (const Angles& view : views)
+    for (const Angles& light : lights) table.push_back(fileOfPair.at({light, view}));
   return table;
 }
 
@@ -90,24 +141,28 @@ std::vector<glm::vec3> directions(const std::set<Angles>& angles) {
 }  // namespace
 
 bool hasAngleImages(const FileCollection& files) {
-  return std::ranges::any_of(files.names(),
-                             [](const std::string& name) { return imageNamed(name).has_value(); });
+  return std::ranges::any_of(files.names(), [](const std::string& name) {
+    return isReadableImage(name) && anglesFromName(fileNameOf(name)).has_value();
+  });
 }
 
 Result<std::unique_ptr<BtfSource>> openAngleImages(std::unique_ptr<FileCollection> files, std::string where,
                                                    std::string name) {
   WEFT_TRY(const NamedImages images, findImages(*files, where));
+  if (images.fileOfPair.empty()) return failNoImages(images, where);
   std::set<Angles> views;
   std::set<Angles> lights;
   for (const auto& [angles, file] : images.fileOfPair) views.insert(angles.view), lights.insert(angles.light);
-  WEFT_TRY(std::vector<int> fileOfPair, completeTable(images.fileOfPair, views, lights, where));
+  if (images.fileOfPair.size() < views.size() * lights.size())
+    return failIncomplete(images, views, lights, where);
   BtfDescription description;
   description.views = directions(views);
   description.lights = directions(lights);
   description.encoding = images.encoding;
   description.name = std::move(name);
-  return ImageBtfSource::create(std::move(description), std::move(files), std::move(fileOfPair),
-                                std::move(where));
+  description.warnings = warningsOf(images);
+  return ImageBtfSource::create(std::move(description), std::move(files),
+                                tableOf(images.fileOfPair, views, lights), std::move(where));
 }
 
 }  // namespace weft

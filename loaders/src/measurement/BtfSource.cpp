@@ -5,6 +5,8 @@
 
 #include "AngleImages.h"
 #include "LightList.h"
+#include "weft/core/FileKind.h"
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 
@@ -12,19 +14,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool isLightList(const fs::path& file) {
-  return file.extension() == ".lp" || file.extension() == ".LP";
+// Light lists are told by their name, as nothing in them tells.
+Result<void> checkIsMeasurement(const fs::path& file) {
+  const FileKind kind = fileKind(file);
+  if (kind == FileKind::Zip || kind == FileKind::Unknown) return {};  // programs may precede a zip
+  return failOtherKind(kind, "a measurement: a folder or zip of images, or a light list (.lp)",
+                       file.string());
 }
 
-// The one of a folder itself, not of folders in it.
-std::optional<std::string> onlyLightList(const FileCollection& folder) {
-  std::optional<std::string> only;
-  for (const std::string& name : folder.names()) {
-    if (name.find('/') != std::string::npos || !isLightList(name)) continue;
-    if (only) return std::nullopt;
-    only = name;
-  }
-  return only;
+Result<std::unique_ptr<FileCollection>> openFiles(const fs::path& path, bool isFolder) {
+  if (isFolder) return openFolder(path);
+  WEFT_TRY_VOID(checkIsMeasurement(path));
+  return openZip(path);
 }
 
 }  // namespace
@@ -40,18 +41,27 @@ int BtfSource::rowsWithin(std::size_t bytes) const {
       std::clamp<std::size_t>(bytes / d.rowBytes(), 1, static_cast<std::size_t>(d.height)));
 }
 
-Result<std::unique_ptr<BtfSource>> openBtf(const fs::path& path) {
+Result<std::unique_ptr<BtfSource>> openBtf(const fs::path& path, const BtfOptions& options) {
   std::error_code error;
-  if (!fs::exists(path, error)) return fail("no such file or folder", path.string());
-  const bool isFolder = fs::is_directory(path, error);
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return fail("no such file or folder", path.string());
+  const bool isFolder = status.type() == fs::file_type::directory;
+  if (!isFolder) WEFT_TRY_VOID(regularFileSize(path));
   const fs::path whole = fs::absolute(path, error).lexically_normal();
   const fs::path named = whole.has_filename() ? whole : whole.parent_path();  // "wool/" is named wool
   const std::string name = isFolder ? named.filename().string() : named.stem().string();
-  if (!isFolder && isLightList(path)) return openLightList(path, name);
+  if (!isFolder && isLightList(path.string())) return openLightList(path, name, options);
 
-  WEFT_TRY(std::unique_ptr<FileCollection> files, isFolder ? openFolder(path) : openZip(path));
-  if (isFolder && !hasAngleImages(*files))
-    if (const auto list = onlyLightList(*files)) return openLightList(path / *list, name);
+  WEFT_TRY(std::unique_ptr<FileCollection> files, openFiles(path, isFolder));
+  std::optional<int> list;
+  if (!hasAngleImages(*files)) {
+    WEFT_TRY(list, findLightList(*files, path.string()));
+  }
+  if (list && isFolder)
+    return openLightList(path / files->names()[static_cast<std::size_t>(*list)], name, options);
+  if (list) return openLightList(std::move(files), *list, path.string(), name, options);
+  if (options.imagesInOrder)
+    return fail("only the images of a light list can be taken in order", path.string());
   return openAngleImages(std::move(files), path.string(), name);
 }
 

@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// The files of a folder or a zip, by name. Thread safe.
+/// The files of a folder or a zip, by name, without clutter (FilePath.h). Thread safe.
 class FileCollection {
  public:
   virtual ~FileCollection() = default;
@@ -21,13 +21,14 @@ class FileCollection {
   virtual Result<std::vector<std::uint8_t>> read(int index) const = 0;
 };
 
-/// All files below a folder, sorted by name.
+/// All files below a folder, sorted by name. Fails on a folder that may not be read, and on more than a
+/// million files.
 Result<std::unique_ptr<FileCollection>> openFolder(const std::filesystem::path& path);
 
 /// Files named relative to a folder.
 std::unique_ptr<FileCollection> listedFiles(std::filesystem::path folder, std::vector<std::string> names);
 
-/// All files in a zip, in its order.
+/// All files in a zip, in its order. Fails on damage that its list of files shows.
 Result<std::unique_ptr<FileCollection>> openZip(const std::filesystem::path& path);
 
 }  // namespace weft

@@ -1,12 +1,18 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "FileCollection.h"
+#include "FilePath.h"
 #include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A folder of more was not meant: a root, a home.
+constexpr std::size_t kMostFiles = 1'000'000;
 
 class FolderCollection : public FileCollection {
  public:
@@ -29,8 +35,17 @@ Result<std::unique_ptr<FileCollection>> openFolder(const fs::path& path) {
   std::vector<std::string> names;
   std::error_code error;
   fs::recursive_directory_iterator entry(path, error);
-  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error))
-    if (!entry->is_directory(error)) names.push_back(entry->path().lexically_relative(path).generic_string());
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    std::string name = entry->path().lexically_relative(path).generic_string();
+    if (isClutter(name)) {
+      entry.disable_recursion_pending();
+      continue;
+    }
+    if (!entry->is_directory(error)) names.push_back(std::move(name));
+    if (names.size() > kMostFiles)
+      return fail(fmt::format("the folder holds more than {} files", kMostFiles), path.string(),
+                  "give the folder of the measurement alone");
+  }
   if (error) return fail("the folder cannot be read: " + error.message(), path.string());
   std::sort(names.begin(), names.end());
   return listedFiles(path, std::move(names));

@@ -53,6 +53,8 @@ Result<std::unique_ptr<BtfSource>> ImageBtfSource::create(BtfDescription descrip
   const int first = source->fileOfPair_.front();
   WEFT_TRY(const std::vector<std::uint8_t> bytes, source->files_->read(first));
   WEFT_TRY(const ImageSize size, imageSize(bytes, source->whereOf(first)));
+  // Before anyone takes memory for so many texels, their number is proved.
+  WEFT_TRY_VOID(decodeImage(bytes, source->whereOf(first)));
   source->description_.width = size.width;
   source->description_.height = size.height;
   source->description_.storedAsBytes = true;

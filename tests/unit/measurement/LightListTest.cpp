@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 
+#include "LightListFiles.h"
 #include "Samples.h"
 #include "TestImages.h"
 #include "TestSupport.h"
@@ -15,44 +14,18 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+using test::errorOfOpening;
+using test::imagesOf;
+using test::listOfTwo;
 using test::requireDone;
 using test::valueOf;
+using test::warningsOf;
+using test::writeImage;
+using test::writeList;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// An image of 3 x 2 pixels whose value tells which one it is.
-void writeImage(const fs::path& file, int value) {
-  fs::create_directories(file.parent_path());
-  requireDone(writePng(file, test::imageOf(3, 2, [&](int x, int y, int c) { return value + x + y + c; })));
-}
-
-fs::path writeList(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-  return file;
-}
-
-// Two images and a list of them in a fresh folder.
-fs::path listOfTwo(const std::string& text) {
-  const fs::path folder = test::testFolder();
-  writeImage(folder / "a.png", 10);
-  writeImage(folder / "b.png", 20);
-  return writeList(folder / "dirs.lp", text);
-}
-
-std::string errorOfOpening(const fs::path& path) {
-  const auto source = openBtf(path);
-  return source ? "opened" : source.error().message();
-}
-
-// The values that tell the images apart, by light.
-std::vector<int> imagesOf(const BtfSource& source) {
-  const SampleRows rows = test::allRows(source);
-  std::vector<glm::vec3> texel(rows.pairs());
-  rows.stored(0, 0, texel);
-  std::vector<int> values;
-  for (const glm::vec3& rgb : texel) values.push_back(static_cast<int>(std::lround(rgb.x * 255.0f)));
-  return values;
-}
+const BtfOptions kInOrder{.imagesInOrder = true};
 
 TEST(LightList, IsABtfOfOneViewFromTheTop) {
   const std::unique_ptr<BtfSource> source =
@@ -89,11 +62,21 @@ TEST(LightList, LightsAreNormalizedAndMayLieBelowTheHorizon) {
   EXPECT_LT(glm::distance(lights[0], glm::vec3(0.6f, 0, 0.8f)), 1e-6f);
   EXPECT_LT(glm::distance(lights[1], glm::vec3(0, 1, -0.00175f)), 1e-5f);
   EXPECT_LT(lights[1].z, 0.0f);
+  EXPECT_THAT(warningsOf(*source),
+              HasSubstr("no weight to images with light on or below the horizon: b.png"));
+  EXPECT_THAT(warningsOf(*source),
+              HasSubstr("the vectors to the lights, up to 5 long, are taken as directions"));
+}
+
+TEST(LightList, RefusesLightsThatAreAllBelowTheHorizon) {
+  EXPECT_THAT(errorOfOpening(listOfTwo("2\na.png 0.6 0 -0.8\nb.png 1 0 0\n")),
+              HasSubstr("dirs.lp: no light is above the horizon"));
 }
 
 TEST(LightList, TheSameLightTwiceIsAMeasurement) {
   const auto source = valueOf(openBtf(listOfTwo("2\na.png 0.6 0 0.8\nb.png 0.6 0 0.8\n")));
   EXPECT_EQ(imagesOf(*source), (std::vector{10, 20}));
+  EXPECT_EQ(warningsOf(*source), "");
 }
 
 TEST(LightList, FindsImagesByTheirNames) {
@@ -112,19 +95,39 @@ TEST(LightList, FindsImagesByTheirNames) {
   }
 }
 
-TEST(LightList, TakesImagesInOrderWhenNoNameMatches) {
+TEST(LightList, TakesImagesInOrderWhereThatIsAskedFor) {
   const fs::path list = listOfTwo("2\nIMG_7.tif 0 0.6 0.8\nIMG_8.tif 0 0 1\n");
-  EXPECT_EQ(imagesOf(*valueOf(openBtf(list))), (std::vector{20, 10}));
+  EXPECT_THAT(errorOfOpening(list),
+              HasSubstr("dirs.lp, line 2: there is no image 'IMG_7.tif', nor those of 1 other lines"));
+  EXPECT_EQ(imagesOf(*valueOf(openBtf(list, kInOrder))), (std::vector{20, 10}));
   writeImage(list.parent_path() / "c.png", 30);
-  EXPECT_THAT(errorOfOpening(list), HasSubstr("dirs.lp, line 2: there is no image 'IMG_7.tif'"));
+  EXPECT_THAT(errorOfOpening(list, kInOrder), HasSubstr("dirs.lp: 2 lights are listed, 3 images are there"));
+  fs::remove(list.parent_path() / "c.png");
+  fs::remove(list.parent_path() / "b.png");
+  EXPECT_THAT(errorOfOpening(list, kInOrder), HasSubstr("dirs.lp, line 3: there is no image 'IMG_8.tif'"));
+}
+
+TEST(LightList, SaysWhereTheOrderIsNotThatOfTheNames) {
+  const fs::path list = listOfTwo("2\nb.png 0.6 0 0.8\na.png 0 -0.6 0.8\n");
+  const auto source = valueOf(openBtf(list, kInOrder));
+  EXPECT_EQ(imagesOf(*source), (std::vector{10, 20}));
+  EXPECT_THAT(warningsOf(*source), HasSubstr("the order gives 'a.png' to the line of 'b.png'"));
+  EXPECT_EQ(imagesOf(*valueOf(openBtf(list))), (std::vector{20, 10}));
 }
 
 TEST(LightList, DoesNotGuessTheOrderOfNamesOfDifferentLengths) {
   const fs::path folder = test::testFolder();
   writeImage(folder / "9.png", 10);
   writeImage(folder / "10.png", 20);
-  EXPECT_THAT(errorOfOpening(writeList(folder / "dirs.lp", "2\nx 0 0.6 0.8\ny 0 0 1\n")),
-              HasSubstr("dirs.lp, line 2: there is no image 'x'"));
+  EXPECT_THAT(errorOfOpening(writeList(folder / "dirs.lp", "2\nx 0 0.6 0.8\ny 0 0 1\n"), kInOrder),
+              HasSubstr("dirs.lp: the order of images whose names differ in length is not sure"));
+}
+
+TEST(LightList, OnlyItsImagesAreTakenInOrder) {
+  const fs::path folder = test::testFolder();
+  writeImage(folder / "tl015_pl000_tv000_pv000.png", 40);
+  EXPECT_THAT(errorOfOpening(folder, kInOrder),
+              HasSubstr("only the images of a light list can be taken in order"));
 }
 
 TEST(LightList, AFolderWithOneListIsThatList) {
@@ -136,7 +139,7 @@ TEST(LightList, AFolderWithOneListIsThatList) {
   EXPECT_EQ(imagesOf(*source), (std::vector{10, 20}));
   EXPECT_EQ(source->description().name, folder.filename());
   fs::copy(list, folder / "again.LP");
-  EXPECT_THAT(errorOfOpening(folder), HasSubstr("no images named by their angles"));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("there are two light lists, 'again.LP' and 'dirs.lp'"));
   fs::remove(folder / "again.LP");
   writeImage(folder / "tl015_pl000_tv000_pv000.png", 40);
   EXPECT_EQ(imagesOf(*valueOf(openBtf(folder))), std::vector{40});
@@ -153,11 +156,14 @@ TEST(LightList, RefusesWhatIsNoListNamingTheLine) {
       {"1001\n", "dirs.lp, line 1: the number of lights is expected"},
       {"99999999999999999999\n", "dirs.lp, line 1: the number of lights is expected"},
       {"a.png 0 0 1\nb.png 0 1 1\n", "dirs.lp, line 1: the number of lights is expected"},
-      {"3\na.png 0 0 1\nb.png 0 1 1\n", "dirs.lp: line 1 counts 3 lights, 2 are listed"},
-      {"1\na.png 0 0 1\nb.png 0 1 1\n", "dirs.lp: line 1 counts 1 lights, 2 are listed"},
+      {"4\na.png 0 0 1\nb.png 0 1 1\n", "dirs.lp: line 1 counts 4 lights, 2 are listed"},
+      {"1\na.png 0 0 1\nb.png 0 1 1\nb.png 1 1 1\n", "dirs.lp: line 1 counts 1 lights, 3 are listed"},
+      {"1\n", "dirs.lp: line 1 counts 1 lights, 0 are listed"},
       {"2\na.png 0 0 1\nb.png 0 1\n", "dirs.lp, line 3: an image and the three numbers"},
       {"2\na.png 0 0 1\n0 0 1\n", "dirs.lp, line 3: an image and the three numbers"},
-      {"2\na.png 0 0 1\nb.png 0 0,5 1\n", "dirs.lp, line 3: an image and the three numbers"},
+      {"2\na.png 0 0 1\nb.png 0 0,5,5 1\n", "dirs.lp, line 3: an image and the three numbers"},
+      {"2\na.png 0 0 1\nb.png 0 1,000.5 1\n", "dirs.lp, line 3: an image and the three numbers"},
+      {"2\na.png,0,0,1\nb.png,0,1,1\n", "dirs.lp, line 2: an image and the three numbers"},
       {"2\na.png 0 0 1x\nb.png 0 0 1\n", "dirs.lp, line 2: an image and the three numbers"},
       {"2\na.png 0 0 1\nb.png 0 nan 1\n", "dirs.lp, line 3: (0, nan, 1) is not the direction"},
       {"2\na.png 0 0 1\nb.png 0 0 inf\n", "dirs.lp, line 3: (0, 0, inf) is not the direction"},
@@ -203,6 +209,8 @@ TEST(LightList, NamesTheImageThatCannotBeRead) {
 // horizon.
 TEST(LightList, OpensRealLists) {
   WEFT_DATA_FILE(rti, "rti");
+  const std::string kDarkLight =
+      "fits give no weight to images with light on or below the horizon: image16.jpg\n";
   const std::pair<const char*, std::size_t> items[] = {{"item1", 60}, {"item2", 47}, {"item5", 49},
                                                        {"item6", 48}, {"item7", 48}, {"item9", 48},
                                                        {"item11", 54}};
@@ -219,6 +227,7 @@ TEST(LightList, OpensRealLists) {
     }
     EXPECT_EQ(lowest < 0.0f, item == std::string("item7"));
     EXPECT_GT(lowest, -0.002f);
+    EXPECT_EQ(warningsOf(*source), lowest < 0.0f ? kDarkLight : "");
   }
 }
 

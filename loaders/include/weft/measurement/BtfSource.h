@@ -18,11 +18,13 @@ struct BtfDescription {
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> views;   ///< unit, tangent frame (Direction.h), sorted by polar angle, then azimuth
-  std::vector<glm::vec3> lights;  ///< likewise
+  std::vector<glm::vec3> lights;  ///< likewise; fits leave out those on or below the horizon
   Encoding encoding = Encoding::Linear;  ///< of the stored values
   bool storedAsBytes = false;            ///< 8 bits a channel; else linear floats
   bool cosineInData = true;              ///< values contain the foreshortening n.l, as photographs do
   std::string name;                      ///< for people: the file's or folder's name
+  std::vector<std::string>
+      warnings;  ///< what is left out, assumed or not as the source says, a sentence each
 
   std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   /// Of the samples of one row, all its pairs, in SampleRows.
@@ -47,9 +49,16 @@ class BtfSource {
   int rowsWithin(std::size_t bytes) const;
 };
 
+/// How a measurement is opened.
+struct BtfOptions {
+  /// Of a light list: the n-th image, in the order of their names, is that of the n-th light, whatever the
+  /// list calls it.
+  bool imagesInOrder = false;
+};
+
 /// Opens a folder or a zip of angle-named images (UBO2003's names), or a `.lp` (docs/conventions.md) with its
-/// images, also as the folder that holds it. Reads names and one image header, no pixels. Fails on missing or
-/// duplicate directions, an empty folder or a broken zip, naming file and reason.
-Result<std::unique_ptr<BtfSource>> openBtf(const std::filesystem::path& path);
+/// images, also as the folder or zip that holds it. Reads names and the first image. Fails, naming file and
+/// reason, on missing or duplicate directions, an empty folder, a broken zip or a file of another kind.
+Result<std::unique_ptr<BtfSource>> openBtf(const std::filesystem::path& path, const BtfOptions& options = {});
 
 }  // namespace weft
