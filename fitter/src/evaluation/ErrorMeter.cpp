@@ -40,11 +40,17 @@ ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& 
       layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
   for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
     layers_.push_back(formula_.layersAround(direction, direction));
+  for (std::size_t light = 0; light < lights_.size(); ++light)
+    if (lights_[light].z <= 0.0f) lightIsFitted_[light] = false;
   runs_ = findRuns();
-  const auto notAll = [](const std::vector<bool>& flags) {
-    return std::ranges::find(flags, false) != flags.end();
+  holdsOut_ = std::ranges::find(runs_, false, &Run::isFitted) != runs_.end();
+}
+
+bool ErrorMeter::fitsAllPairs() const {
+  const auto all = [](const std::vector<bool>& flags) {
+    return std::ranges::find(flags, false) == flags.end();
   };
-  holdsOut_ = notAll(viewIsFitted_) || notAll(lightIsFitted_);
+  return all(viewIsFitted_) && all(lightIsFitted_);
 }
 
 // The layers' numbers and weights around a view, or light.
@@ -93,8 +99,12 @@ std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
   std::vector<Run> runs;
   for (std::size_t view = 0; view < views_.size(); ++view)
     for (std::size_t light = 0; light < lights_.size(); ++light) {
+      if (lights_[light].z <= 0.0f) continue;
       const bool isFitted = viewIsFitted_[view] && lightIsFitted_[light];
-      if (light == 0 || runs.back().isFitted != isFitted) runs.push_back({view, light, 0, isFitted});
+      const bool continues = !runs.empty() && runs.back().view == view &&
+                             runs.back().firstLight + runs.back().count == light &&
+                             runs.back().isFitted == isFitted;
+      if (!continues) runs.push_back({view, light, 0, isFitted});
       ++runs.back().count;
     }
   return runs;
@@ -108,8 +118,9 @@ SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const f
   std::vector<glm::vec3> model(2 * lightCount);
   const std::span<glm::vec3> linearModel = std::span(model).first(lightCount);
   const std::span<glm::vec3> storedModel = std::span(model).last(lightCount);
-  for (const Run& run : runs_) {
-    if (run.firstLight == 0) {
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const Run& run = runs_[i];
+    if (i == 0 || runs_[i - 1].view != run.view) {
       evaluateView(shared, layers, run.view, linearModel);
       std::ranges::copy(linearModel, storedModel.begin());
       encodeAll(encoding_, floatsOf(storedModel));

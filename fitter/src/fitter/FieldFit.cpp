@@ -29,11 +29,19 @@ std::vector<glm::vec3> without(const std::vector<glm::vec3>& directions, const s
   return rest;
 }
 
+// Those that are held out, and those on or below the horizon: models differ in what they make of these.
+std::vector<bool> lightsLeftOut(const std::vector<glm::vec3>& lights, int every) {
+  std::vector<bool> left = heldOut(lights, every);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].z <= 0.0f) left[i] = true;
+  return left;
+}
+
 ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const FitOptions& options,
                                           const ReflectanceModel& model) {
   const bool stored = options.space == FitSpace::Stored;
   return {without(measured.views, heldOut(measured.views, options.holdOutViews)),
-          without(measured.lights, heldOut(measured.lights, options.holdOutLights)),
+          without(measured.lights, lightsLeftOut(measured.lights, options.holdOutLights)),
           options.cosineInModel || stored || model.containsCosine(),
           stored ? measured.encoding : Encoding::Linear,
           measured.name,

@@ -17,10 +17,10 @@ void TexelJob::fit(const SampleRows& rows, int row, int column, FittedRows& to, 
   const std::span<float> shared = to.shared.texel(x, y);
   const std::size_t channels = to.layers.channels().size();
   std::vector<float> layers(static_cast<std::size_t>(to.layers.layers()) * channels);
-  if (meter_.holdsOut())
-    fitChannels({fittedOf(samples.linear), fittedOf(samples.stored)}, shared, layers);
-  else
+  if (meter_.fitsAllPairs())
     fitChannels(samples, shared, layers);
+  else
+    fitChannels({fittedOf(samples.linear), fittedOf(samples.stored)}, shared, layers);
   if (options_.precision == Precision::Half) {
     for (float& number : shared) number = roundToHalf(number);
     for (float& number : layers) number = roundToHalf(number);
@@ -32,7 +32,7 @@ void TexelJob::fit(const SampleRows& rows, int row, int column, FittedRows& to, 
             static_cast<std::size_t>(x)] = meter_.measure(shared, layers, samples.linear, samples.stored);
 }
 
-// Without the pairs that are held out.
+// Without the pairs that are held out, or not lit.
 std::vector<glm::vec3> TexelJob::fittedOf(const std::vector<glm::vec3>& all) const {
   std::vector<glm::vec3> fitted;
   const std::vector<bool>& lights = meter_.fittedLights();

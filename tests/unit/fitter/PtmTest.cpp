@@ -30,7 +30,10 @@ TEST_P(PtmOfRealPhotographs, EqualsLeastSquaresByAHouseholderDecomposition) {
   const Crop crop{measured.width / 3, measured.height / 2, 40, 3};
   SampleRows rows;
   ASSERT_TRUE(source->readRows(crop.y, crop.height, rows));
-  const Eigen::MatrixXd basis = basisOf(measured.lights);
+  // One of item 7's lights lies below the horizon; it is the last, as lights are sorted.
+  std::vector<glm::vec3> lights = measured.lights;
+  while (lights.back().z <= 0.0f) lights.pop_back();
+  const Eigen::MatrixXd basis = basisOf(lights);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(basis);
 
   FitOptions options;
@@ -54,7 +57,7 @@ TEST_P(PtmOfRealPhotographs, EqualsLeastSquaresByAHouseholderDecomposition) {
       }
       const Eigen::MatrixXd expected = basis * decomposition.solve(samples);
       for (Eigen::Index i = 0; i < basis.rows(); ++i) {
-        const glm::vec3 light = measured.lights[static_cast<std::size_t>(i)];
+        const glm::vec3 light = lights[static_cast<std::size_t>(i)];
         const auto value = [&](const FitResult& fit) {
           return fit.field.model().evaluateColor(fit.field.shared().texel(x, y),
                                                  fit.field.layers().texel(x, y), light, {0, 0, 1});

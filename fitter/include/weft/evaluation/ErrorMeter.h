@@ -22,12 +22,15 @@ FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors
 /// Compares the numbers of texels with all their samples: what weft-fit and weft-eval report. Thread safe.
 class ErrorMeter {
  public:
-  /// Pairs whose view or light is not among the fitted directions of `description` count as held out.
+  /// Pairs whose view or light is not among the fitted directions of `description` count as held out. Lights
+  /// on or below the horizon count nowhere: whatever an image of them shows, the surface is not lit.
   ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& description,
              const BtfDescription& measured);
 
   /// Whether there are held-out pairs at all.
   bool holdsOut() const { return holdsOut_; }
+  /// Whether the pairs that are fitted are all that were measured.
+  bool fitsAllPairs() const;
   /// Which of the measured directions were fitted.
   const std::vector<bool>& fittedViews() const { return viewIsFitted_; }
   const std::vector<bool>& fittedLights() const { return lightIsFitted_; }

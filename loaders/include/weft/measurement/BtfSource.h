@@ -23,8 +23,7 @@ struct BtfDescription {
   bool storedAsBytes = false;            ///< 8 bits a channel; else linear floats
   bool cosineInData = true;              ///< values contain the foreshortening n.l, as photographs do
   std::string name;                      ///< for people: the file's or folder's name
-  std::vector<std::string>
-      warnings;  ///< what is left out, assumed or not as the source says, a sentence each
+  std::vector<std::string> warnings{};   ///< what is left out, or not as the source says, a sentence each
 
   std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   /// Of the samples of one row, all its pairs, in SampleRows.
