@@ -96,6 +96,10 @@ ExitCode Tool::badUsage(const std::string& message) const {
   return ExitCode::BadUsage;
 }
 
+void Tool::warn(const std::string& message) const {
+  data_->printError(message);
+}
+
 Progress Tool::progress(std::string label, double amount, std::string unit) const {
   if (data_->quiet) return {};
   auto printer = std::make_shared<ProgressPrinter>(std::move(label), amount, std::move(unit),

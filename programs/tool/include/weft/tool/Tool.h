@@ -55,6 +55,8 @@ class Tool {
   /// For options that are wrong together: prints the message; return what it returns.
   ExitCode badUsage(const std::string& message) const;
 
+  /// Prints "NAME: message" on stderr: what was assumed, dropped or guessed. --quiet keeps it.
+  void warn(const std::string& message) const;
   /// Prints progress on stderr: on a terminal one line with rate and time left, else a line every 10 s, with
   /// --quiet nothing. `amount` `unit`s ("texels") are done at fraction 1; 0 prints no rate.
   Progress progress(std::string label, double amount = 0.0, std::string unit = {}) const;
