@@ -12,7 +12,7 @@ struct Error {
   std::string where;  ///< a file, with an offset, line or entry where that is known; may be empty
   std::string hint;   ///< what to do; may be empty
 
-  /// "WHERE: WHAT (HINT)", one line for people.
+  /// "WHERE: WHAT (HINT)", one line for people; printable(), whatever the members quote.
   std::string message() const;
 };
 
