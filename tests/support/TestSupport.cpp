@@ -1,5 +1,7 @@
 #include "TestSupport.h"
 
+#include <sys/resource.h>
+
 #include <cstdlib>
 
 namespace weft::test {
@@ -14,6 +16,12 @@ std::filesystem::path sourceFolder() {
 }
 std::filesystem::path programFolder() {
   return std::filesystem::path(WEFT_BINARY_DIR) / "bin";
+}
+
+std::uint64_t peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 std::filesystem::path testFolder() {

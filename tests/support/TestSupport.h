@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,6 +22,9 @@ std::filesystem::path programFolder();
 /// A fresh, empty folder for the files of the running test; kept, so that a failing test leaves its pictures
 /// behind.
 std::filesystem::path testFolder();
+
+/// The most bytes of memory that the process has held until now.
+std::uint64_t peakMemory();
 
 /// The value of a Result, or a test failure with its message.
 template <class T>

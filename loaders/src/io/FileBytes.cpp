@@ -6,6 +6,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "weft/io/WithinMemory.h"
+
 namespace weft {
 
 namespace {
@@ -32,15 +34,17 @@ Result<std::vector<std::uint8_t>> readFileBytes(const std::filesystem::path& pat
   WEFT_TRY(const std::uint64_t size, regularFileSize(path));
   if (size > limit)
     return fail(fmt::format("the file has {} bytes, more than the {} allowed", size, limit), path.string());
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes(stream ? size : 0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) {
-    const std::string reason = errno ? std::generic_category().message(errno) : "it has become shorter";
-    return fail("cannot be read: " + reason, path.string(), kCheckPermissions);
-  }
-  return bytes;
+  return withinMemory(path.string(), [&]() -> Result<std::vector<std::uint8_t>> {
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    std::vector<std::uint8_t> bytes(stream ? size : 0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) {
+      const std::string reason = errno ? std::generic_category().message(errno) : "it has become shorter";
+      return fail("cannot be read: " + reason, path.string(), kCheckPermissions);
+    }
+    return bytes;
+  });
 }
 
 }  // namespace weft

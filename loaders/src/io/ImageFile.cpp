@@ -1,61 +1,36 @@
 #include "weft/io/ImageFile.h"
 
 #include <fmt/format.h>
-#include <png.h>
-#include <turbojpeg.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <utility>
 
+#include "JpegImage.h"
+#include "PngImage.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Color.h"
 #include "weft/core/Contract.h"
+#include "weft/core/FileKind.h"
 #include "weft/io/FileBytes.h"
+#include "weft/io/WithinMemory.h"
 
 namespace weft {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::int64_t kLargestSide = 16384;
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
-
-struct DestroyTurboJpeg {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-using TurboJpeg = std::unique_ptr<void, DestroyTurboJpeg>;
-
-struct PngImage : png_image {
-  PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
-  explicit PngImage(const Image& image) : PngImage() {
-    constexpr std::array<png_uint_32, 4> formats{PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB,
-                                                 PNG_FORMAT_RGBA};
-    WEFT_EXPECT(image.channels >= 1 && image.channels <= 4, "a PNG has 1 to 4 channels");
-    width = static_cast<png_uint_32>(image.width);
-    height = static_cast<png_uint_32>(image.height);
-    format = formats[static_cast<std::size_t>(image.channels - 1)];
-  }
-  PngImage(const PngImage&) = delete;
-  PngImage& operator=(const PngImage&) = delete;
-  ~PngImage() { png_image_free(this); }
-};
-
-bool isJpeg(Bytes bytes) {
-  return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+Result<ImageHeader> readHeader(Bytes bytes, const std::string& where) {
+  if (isJpeg(bytes)) return readJpegHeader(bytes, where);
+  if (isPng(bytes)) return readPngHeader(bytes, where);
+  return failOtherKind(fileKind(bytes), "a JPEG or PNG image", where);
 }
 
-bool isPng(Bytes bytes) {
-  return bytes.size() > 8 && png_sig_cmp(bytes.data(), 0, 8) == 0;
-}
-
-Result<void> checkSize(std::int64_t width, std::int64_t height, const std::string& where) {
-  if (width > 0 && height > 0 && width <= kLargestSide && height <= kLargestSide &&
-      width * height <= kMostPixels)
-    return {};
-  return fail(fmt::format("an image of {} x {} pixels is not supported", width, height), where,
-              fmt::format("at most {} a side and {} in all", kLargestSide, kMostPixels));
+ImageSize uprightSize(const ImageHeader& header) {
+  ImageSize size{header.width, header.height};
+  if (swapsSides(header.orientation)) std::swap(size.width, size.height);
+  return size;
 }
 
 Result<void> checkSameSize(ImageSize actual, ImageSize expected, const std::string& where) {
@@ -65,130 +40,133 @@ Result<void> checkSameSize(ImageSize actual, ImageSize expected, const std::stri
               where);
 }
 
-tl::unexpected<Error> notAnImage(const std::string& where) {
-  return fail("this is neither a JPEG nor a PNG", where);
+std::size_t valueCount(const ImageHeader& header) {
+  return static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) *
+         static_cast<std::size_t>(header.channels);
 }
 
-struct JpegHeader {
-  int width = 0;
-  int height = 0;
-  bool grey = false;
-};
-
-Result<JpegHeader> readJpegHeader(tjhandle decoder, Bytes bytes, const std::string& where) {
-  JpegHeader header;
-  int subsampling = 0;
-  int colorSpace = 0;
-  if (!decoder || tjDecompressHeader3(decoder, bytes.data(), bytes.size(), &header.width, &header.height,
-                                      &subsampling, &colorSpace) != 0)
-    return fail(fmt::format("the JPEG is damaged: {}", tjGetErrorStr2(decoder)), where);
-  WEFT_TRY_VOID(checkSize(header.width, header.height, where));
-  header.grey = colorSpace == TJCS_GRAY;
-  return header;
+Result<void> decodeStored(Bytes bytes, const ImageHeader& header, std::span<std::uint8_t> values,
+                          const std::string& where) {
+  return isPng(bytes) ? decodePng(bytes, values, where) : decodeJpeg(bytes, header.channels, values, where);
 }
 
-Result<void> decodePixels(tjhandle decoder, const JpegHeader& header, Bytes bytes, TJPF format,
-                          std::uint8_t* pixels, const std::string& where) {
-  if (tjDecompress2(decoder, bytes.data(), bytes.size(), pixels, header.width, 0, header.height, format,
-                    TJFLAG_LIMITSCANS) != 0)
-    return fail(fmt::format("the JPEG is damaged: {}", tjGetErrorStr2(decoder)), where);
+Result<void> decodeStored(Bytes bytes, const ImageHeader& header, std::span<std::uint16_t> values,
+                          const std::string& where) {
+  if (header.wide) return decodePng(bytes, values, where);
+  std::vector<std::uint8_t> narrow(values.size());
+  WEFT_TRY_VOID(decodeStored(bytes, header, narrow, where));
+  std::ranges::transform(narrow, values.begin(),
+                         [](std::uint8_t value) { return static_cast<std::uint16_t>(257 * value); });
   return {};
 }
 
-// Every image gets a decoder of its own: one that is used again would lend its tables to an image that lacks
-// them, so that the result depended on what was decoded before. It costs 2 % of decoding 256 x 256 pixels.
-Result<Image> decodeJpeg(Bytes bytes, const std::string& where) {
-  const TurboJpeg decoder(tjInitDecompress());
-  WEFT_TRY(const JpegHeader header, readJpegHeader(decoder.get(), bytes, where));
-  Image image(header.width, header.height, header.grey ? 1 : 3);
-  WEFT_TRY_VOID(decodePixels(decoder.get(), header, bytes, header.grey ? TJPF_GRAY : TJPF_RGB,
-                             image.bytes.data(), where));
-  return image;
+/// Where a pixel of the upright image is stored.
+struct Place {
+  int x;
+  int y;
+};
+
+Place storedPlace(const ImageHeader& header, Place upright) {
+  const auto [x, y] = upright;
+  const int right = header.width - 1, bottom = header.height - 1;
+  switch (header.orientation) {
+    case Orientation::Upright:
+      return {x, y};
+    case Orientation::Mirrored:
+      return {right - x, y};
+    case Orientation::UpsideDown:
+      return {right - x, bottom - y};
+    case Orientation::MirroredUpsideDown:
+      return {x, bottom - y};
+    case Orientation::Transposed:
+      return {y, x};
+    case Orientation::TurnRight:
+      return {y, bottom - x};
+    case Orientation::TransposedUpsideDown:
+      return {right - y, bottom - x};
+    case Orientation::TurnLeft:
+      return {right - y, x};
+  }
+  return {x, y};
 }
 
-Result<void> readPngHeader(PngImage& png, Bytes bytes, const std::string& where) {
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    return fail(fmt::format("the PNG is damaged: {}", png.message), where);
-  return checkSize(png.width, png.height, where);
+template <class Value>
+void copyUpright(const ImageHeader& header, std::span<const Value> stored, std::span<Value> rgb) {
+  const auto [width, height] = uprightSize(header);
+  const auto channels = static_cast<std::size_t>(header.channels);
+  Value* to = rgb.data();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Place place = storedPlace(header, {x, y});
+      const Value* from =
+          stored.data() + (static_cast<std::size_t>(place.y) * static_cast<std::size_t>(header.width) +
+                           static_cast<std::size_t>(place.x)) *
+                              channels;
+      for (std::size_t c = 0; c < 3; ++c) *to++ = from[channels < 3 ? 0 : c];
+    }
 }
 
-Result<Image> decodePng(Bytes bytes, const std::string& where) {
-  PngImage png;
-  WEFT_TRY_VOID(readPngHeader(png, bytes, where));
-  png.format &= PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_ALPHA;  // 8 bits, no palette
-  Image image(static_cast<int>(png.width), static_cast<int>(png.height),
-              static_cast<int>(PNG_IMAGE_SAMPLE_CHANNELS(png.format)));
-  if (!png_image_finish_read(&png, nullptr, image.bytes.data(), 0, nullptr))
-    return fail(fmt::format("the PNG is damaged: {}", png.message), where);
-  return image;
+template <class Value>
+Result<void> decodeUpright(Bytes bytes, ImageSize size, std::span<Value> rgb, const std::string& where) {
+  WEFT_EXPECT(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height),
+              "rgb holds the image");
+  return withinMemory(where, [&]() -> Result<void> {
+    WEFT_TRY(const ImageHeader header, readHeader(bytes, where));
+    WEFT_TRY_VOID(checkSameSize(uprightSize(header), size, where));
+    if constexpr (sizeof(Value) == 1)
+      if (isJpeg(bytes) && header.orientation == Orientation::Upright)
+        return decodeJpeg(bytes, 3, rgb, where);
+    std::vector<Value> stored(valueCount(header));
+    WEFT_TRY_VOID(decodeStored(bytes, header, std::span(stored), where));
+    copyUpright(header, std::span<const Value>(stored), rgb);
+    return {};
+  });
 }
 
 }  // namespace
 
-Result<ImageSize> imageSize(Bytes bytes, const std::string& where) {
-  if (isJpeg(bytes)) {
-    const TurboJpeg decoder(tjInitDecompress());
-    WEFT_TRY(const JpegHeader header, readJpegHeader(decoder.get(), bytes, where));
-    return ImageSize{header.width, header.height};
-  }
-  if (!isPng(bytes)) return notAnImage(where);
-  PngImage png;
-  WEFT_TRY_VOID(readPngHeader(png, bytes, where));
-  return ImageSize{static_cast<int>(png.width), static_cast<int>(png.height)};
-}
-
 Result<Image> decodeImage(Bytes bytes, const std::string& where) {
-  if (isJpeg(bytes)) return decodeJpeg(bytes, where);
-  if (isPng(bytes)) return decodePng(bytes, where);
-  return notAnImage(where);
+  return withinMemory(where, [&]() -> Result<Image> {
+    WEFT_TRY(const ImageHeader header, readHeader(bytes, where));
+    Image image(header.width, header.height, header.channels);
+    WEFT_TRY_VOID(decodeStored(bytes, header, std::span(image.bytes), where));
+    return image;
+  });
 }
 
-Result<void> decodeRgb(Bytes bytes, ImageSize size, std::span<std::uint8_t> rgb, const std::string& where) {
-  WEFT_EXPECT(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height),
-              "rgb holds the image");
-  if (isJpeg(bytes)) {
-    const TurboJpeg decoder(tjInitDecompress());
-    WEFT_TRY(const JpegHeader header, readJpegHeader(decoder.get(), bytes, where));
-    WEFT_TRY_VOID(checkSameSize({header.width, header.height}, size, where));
-    return decodePixels(decoder.get(), header, bytes, TJPF_RGB, rgb.data(), where);
-  }
-  WEFT_TRY(const ImageSize actual, imageSize(bytes, where));
-  WEFT_TRY_VOID(checkSameSize(actual, size, where));
-  WEFT_TRY(const Image image, decodeImage(bytes, where));
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::uint8_t* from = image.bytes.data();
-  for (std::size_t i = 0; i < rgb.size(); i += 3, from += channels)
-    for (std::size_t c = 0; c < 3; ++c) rgb[i + c] = from[channels < 3 ? 0 : c];
-  return {};
+bool isWideImage(Bytes bytes) {
+  const auto header = isPng(bytes) ? readPngHeader(bytes, {}) : Result<ImageHeader>();
+  return header && header->wide;
+}
+
+Result<WideImage> decodeWideImage(Bytes bytes, const std::string& where) {
+  return withinMemory(where, [&]() -> Result<WideImage> {
+    WEFT_TRY(const ImageHeader header, readHeader(bytes, where));
+    WideImage image{header.width, header.height, header.channels,
+                    std::vector<std::uint16_t>(valueCount(header))};
+    WEFT_TRY_VOID(decodeStored(bytes, header, std::span(image.words), where));
+    return image;
+  });
+}
+
+Result<PhotographHeader> photographHeader(Bytes bytes, const std::string& where) {
+  WEFT_TRY(const ImageHeader header, readHeader(bytes, where));
+  return PhotographHeader{uprightSize(header), header.wide};
+}
+
+Result<void> decodePhotograph(Bytes bytes, ImageSize size, std::span<std::uint8_t> rgb,
+                              const std::string& where) {
+  return decodeUpright(bytes, size, rgb, where);
+}
+
+Result<void> decodePhotograph(Bytes bytes, ImageSize size, std::span<std::uint16_t> rgb,
+                              const std::string& where) {
+  return decodeUpright(bytes, size, rgb, where);
 }
 
 Result<Image> readImage(const std::filesystem::path& path) {
   WEFT_TRY(const std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestImageFile));
   return decodeImage(bytes, path.string());
-}
-
-Result<std::vector<std::uint8_t>> encodeJpeg(const Image& image, int quality) {
-  WEFT_EXPECT(image.channels == 3, "a JPEG is written from RGB");
-  const TurboJpeg encoder(tjInitCompress());
-  if (!encoder) return fail("out of memory for the JPEG encoder");
-  std::vector<std::uint8_t> bytes(tjBufSize(image.width, image.height, TJSAMP_444));
-  unsigned char* buffer = bytes.data();
-  unsigned long size = bytes.size();
-  if (tjCompress2(encoder.get(), image.bytes.data(), image.width, 0, image.height, TJPF_RGB, &buffer, &size,
-                  TJSAMP_444, quality, TJFLAG_NOREALLOC) != 0)
-    return fail(fmt::format("JPEG encoding failed: {}", tjGetErrorStr2(encoder.get())));
-  bytes.resize(size);
-  return bytes;
-}
-
-Result<std::vector<std::uint8_t>> encodePng(const Image& image) {
-  PngImage png(image);
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::vector<std::uint8_t> bytes(size);
-  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.bytes.data(), 0, nullptr))
-    return fail(fmt::format("PNG encoding failed: {}", png.message));
-  bytes.resize(size);
-  return bytes;
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image& image) {

@@ -52,11 +52,11 @@ Result<std::unique_ptr<BtfSource>> ImageBtfSource::create(BtfDescription descrip
 
   const int first = source->fileOfPair_.front();
   WEFT_TRY(const std::vector<std::uint8_t> bytes, source->files_->read(first));
-  WEFT_TRY(const ImageSize size, imageSize(bytes, source->whereOf(first)));
+  WEFT_TRY(const PhotographHeader header, photographHeader(bytes, source->whereOf(first)));
   // Before anyone takes memory for so many texels, their number is proved.
   WEFT_TRY_VOID(decodeImage(bytes, source->whereOf(first)));
-  source->description_.width = size.width;
-  source->description_.height = size.height;
+  source->description_.width = header.size.width;
+  source->description_.height = header.size.height;
   source->description_.storedAsBytes = true;
   source->description_.cosineInData = true;  // photographs of an irradiated surface
   return source;
@@ -84,7 +84,8 @@ Result<void> ImageBtfSource::readRows(int firstRow, int rowCount, SampleRows& ou
       const std::size_t i = static_cast<std::size_t>(index);
       const int file = fileOfPair_[first + i];
       WEFT_TRY(const std::vector<std::uint8_t> bytes, files_->read(file));
-      return decodeRgb(bytes, {d.width, d.height}, {batch.get() + i * stride, imageBytes}, whereOf(file));
+      return decodePhotograph(bytes, {d.width, d.height}, std::span(batch.get() + i * stride, imageBytes),
+                              whereOf(file));
     }));
     transpose(rows, stride, count, static_cast<std::size_t>(rowCount) * width, out.bytes().data() + first * 3,
               out.pairs() * 3);

@@ -41,7 +41,7 @@ TEST(ImageFile, JpegKeepsSizeAndAlmostTheColours) {
   const Image flat =
       test::imageOf(20, 10, [](int x, int, int c) { return x < 8 ? 200 - 60 * c : 40 + 50 * c; });
   const test::Bytes bytes = valueOf(encodeJpeg(flat, 95));
-  const ImageSize size = valueOf(imageSize(bytes, "test"));
+  const ImageSize size = valueOf(photographHeader(bytes, "test")).size;
   EXPECT_EQ(size.width, 20);
   EXPECT_EQ(size.height, 10);
   const Image image = valueOf(decodeImage(bytes, "test"));

@@ -32,4 +32,12 @@ struct Image {
   }
 };
 
+/// The same with 16 bits a channel, 65535 for what is 255 in 8: `words[row][column][channel]`.
+struct WideImage {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<std::uint16_t> words;
+};
+
 }  // namespace weft
