@@ -25,21 +25,20 @@ void copyMetadata(const Imf::Header& header, FloatImage& image) {
 Result<FloatImage> readExr(const std::filesystem::path& path) {
   const std::string where = path.string();
   WEFT_TRY(const std::uint64_t fileBytes, checkExrFile(path));
-  try {
+  return readingExr(where, [&]() -> Result<FloatImage> {
     Imf::MultiPartInputFile file(path.c_str(), 0);
     WEFT_TRY(const ExrPartShape shape, exrPartShape(file.header(0), where));
+    WEFT_TRY_VOID(checkExrPart(file.header(0), fileBytes, where));
+    Imf::InputPart part(file, 0);
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(shape.width) * static_cast<std::uint64_t>(shape.height);
-    WEFT_TRY_VOID(checkExrMemory(pixels * shape.channels.size(), fileBytes, where));
+    proveExrPart(part, shape.channels, pixels * shape.channels.size(), fileBytes);
     FloatImage image(shape.width, shape.height, shape.channels);
     image.setPrecision(shape.precision);
     copyMetadata(file.header(0), image);
-    Imf::InputPart part(file, 0);
     readExrPart(part, image, 0);
     return image;
-  } catch (const std::exception& error) {
-    return fail(std::string("the OpenEXR file is damaged: ") + error.what(), where);
-  }
+  });
 }
 
 Result<void> writeExr(const std::filesystem::path& path, const FloatImage& image) {

@@ -2,22 +2,39 @@
 
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
+#include <system_error>
+
+#include "weft/core/FileKind.h"
+#include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
 
 constexpr int kLargestSide = 16384;
-// Deflate packs at most 1032 to 1; files up to the free size may be better packed by other methods.
-constexpr std::uint64_t kMostExpansion = 2048;
+// Deflate packs at most 1032 to 1, and halfs become floats; files up to the free size may be better packed by
+// other methods.
+constexpr std::uint64_t kMostExpansion = 2 * 1032;
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
+// Pictures of one colour may well be packed by more, but few others.
+constexpr std::uint64_t kUsualExpansion = 64;
 
-constexpr std::uint32_t kMagic = 20000630;
+// OpenEXR keeps an attribute, of 14 bytes at least, and a channel, of 18, in up to so many bytes in its
+// copies of the headers.
+constexpr std::uint64_t kEntryMemory = 2400;
+constexpr std::uint64_t kSmallestChannel = 18;
+constexpr std::uint64_t kMostHeaderExpansion = 16;
+
+constexpr int kMagicBytes = 4;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 constexpr std::size_t kLongestName = 255;
 
@@ -37,15 +54,47 @@ std::string readName(std::istream& stream) {
   return name;
 }
 
-// False where an attribute does not fit into the file.
-bool attributesFit(std::istream& stream, std::uint64_t fileBytes) {
+// Counts attributes and channels of a header on; false where an attribute does not fit into the file.
+bool attributesFit(std::istream& stream, std::uint64_t fileBytes, std::uint64_t& entries) {
   while (!readName(stream).empty()) {
-    readName(stream);  // of the type
+    const std::string type = readName(stream);
     const std::uint32_t size = readInteger(stream);
     if (!stream || static_cast<std::uint64_t>(stream.tellg()) + size > fileBytes) return false;
     stream.seekg(size, std::ios::cur);
+    entries += 1 + (type == "chlist" ? size / kSmallestChannel : 0);
   }
   return static_cast<bool>(stream);
+}
+
+// Rows of scan lines that are packed together.
+std::uint64_t packedRows(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+      return 1;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 32;
+  }
+}
+
+std::uint64_t columnsOf(const Imf::Header& header) {
+  const Imath::Box2i window = header.dataWindow();
+  return static_cast<std::uint64_t>(std::int64_t{window.max.x} - window.min.x + 1);
+}
+
+// Pixels that are unpacked together: some rows, or a row of tiles.
+std::uint64_t packedPixels(const Imf::Header& header) {
+  if (!header.hasTileDescription()) return columnsOf(header) * packedRows(header.compression());
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 20;  // no product overflows
+  const Imf::TileDescription& tile = header.tileDescription();
+  return std::max<std::uint64_t>(columnsOf(header), std::min<std::uint64_t>(tile.xSize, kMost)) *
+         std::min<std::uint64_t>(tile.ySize, kMost);
 }
 
 Imf::PixelType pixelType(const FloatImage& image) {
@@ -54,31 +103,36 @@ Imf::PixelType pixelType(const FloatImage& image) {
 
 // A slice for every channel of interleaved values; `values` is only written to by a reading part.
 template <class T>
-Imf::FrameBuffer frameBuffer(const FloatImage& image, const T* values, Imf::PixelType type,
-                             const Imath::Box2i& window) {
-  const std::size_t pixelBytes = image.channels().size() * sizeof(T);
+Imf::FrameBuffer frameBuffer(const FloatImage& image, const std::vector<std::string>& names, const T* values,
+                             Imf::PixelType type, const Imath::Box2i& window) {
+  const std::size_t pixelBytes = names.size() * sizeof(T);
   Imf::FrameBuffer buffer;
-  for (std::size_t c = 0; c < image.channels().size(); ++c)
-    buffer.insert(image.channels()[c],
-                  Imf::Slice::Make(type, values + c, window, pixelBytes,
-                                   pixelBytes * static_cast<std::size_t>(image.width())));
+  for (std::size_t c = 0; c < names.size(); ++c)
+    buffer.insert(names[c], Imf::Slice::Make(type, values + c, window, pixelBytes,
+                                             pixelBytes * static_cast<std::size_t>(image.width())));
   return buffer;
 }
 
 }  // namespace
 
 Result<std::uint64_t> checkExrFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return fail("no such file", path.string());
-  const std::uint64_t fileBytes = std::filesystem::file_size(path, error);
+  WEFT_TRY(const std::uint64_t fileBytes, regularFileSize(path));
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (error || !stream) return fail("the file cannot be read", path.string(), "check its permissions");
-  if (readInteger(stream) != kMagic || !stream) return fail("not an OpenEXR file", path.string());
+  if (!stream) return fail("cannot be read: " + std::generic_category().message(errno), path.string());
+  if (const FileKind kind = fileKind(path); kind != FileKind::Exr)
+    return failOtherKind(kind, "an OpenEXR file", path.string());
+  stream.seekg(kMagicBytes);
   const bool multiPart = (readInteger(stream) & kMultiPartFlag) != 0;
+  std::uint64_t entries = 0;
   do {
-    if (!attributesFit(stream, fileBytes))
+    if (!attributesFit(stream, fileBytes, entries))
       return fail("the OpenEXR header is damaged or the file is truncated", path.string());
   } while (multiPart && stream.peek() != 0);
+  if (entries * kEntryMemory > kFreeBytes + kMostHeaderExpansion * fileBytes)
+    return fail(fmt::format("a file of {} bytes with {} attributes and channels is not supported", fileBytes,
+                            entries),
+                path.string());
   return fileBytes;
 }
 
@@ -114,6 +168,28 @@ Result<void> checkExrMemory(std::uint64_t values, std::uint64_t fileBytes, const
               "the file is damaged");
 }
 
+Result<void> checkExrPart(const Imf::Header& header, std::uint64_t fileBytes, const std::string& where) {
+  std::uint64_t channels = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) ++channels;
+  return checkExrMemory(packedPixels(header) * channels, fileBytes, where);
+}
+
+void proveExrPart(Imf::InputPart& part, const std::vector<std::string>& channels, std::uint64_t values,
+                  std::uint64_t fileBytes) {
+  if (values * sizeof(float) <= kFreeBytes + kUsualExpansion * fileBytes) return;
+  const Imath::Box2i window = part.header().dataWindow();
+  std::vector<float> row(columnsOf(part.header()));
+  Imf::FrameBuffer buffer;
+  for (const std::string& name : channels) {
+    const Imf::Channel& channel = part.header().channels()[name.c_str()];
+    auto* base = reinterpret_cast<char*>(row.data() - window.min.x / channel.xSampling);
+    // Rows at a distance of 0 all come to lie in one.
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(float), 0, channel.xSampling, channel.ySampling));
+  }
+  part.setFrameBuffer(buffer);
+  part.readPixels(window.min.y, window.max.y);
+}
+
 Imf::Header exrPartHeader(const FloatImage& image) {
   Imf::Header header(image.width(), image.height());
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -123,8 +199,12 @@ Imf::Header exrPartHeader(const FloatImage& image) {
 }
 
 void readExrPart(Imf::InputPart& part, FloatImage& image, int layer) {
+  readExrPart(part, image, layer, image.channels());
+}
+
+void readExrPart(Imf::InputPart& part, FloatImage& image, int layer, const std::vector<std::string>& names) {
   const Imath::Box2i window = part.header().dataWindow();
-  part.setFrameBuffer(frameBuffer(image, image.layerValues(layer).data(), Imf::FLOAT, window));
+  part.setFrameBuffer(frameBuffer(image, names, image.layerValues(layer).data(), Imf::FLOAT, window));
   part.readPixels(window.min.y, window.max.y);
 }
 
@@ -132,12 +212,12 @@ void writeExrPart(Imf::OutputFile& file, const FloatImage& image, int layer) {
   const std::span<const float> values = image.layerValues(layer);
   const Imath::Box2i window = file.header().dataWindow();
   if (image.precision() == Precision::Float) {
-    file.setFrameBuffer(frameBuffer(image, values.data(), Imf::FLOAT, window));
+    file.setFrameBuffer(frameBuffer(image, image.channels(), values.data(), Imf::FLOAT, window));
     file.writePixels(image.height());
     return;
   }
   const std::vector<half> halfs(values.begin(), values.end());
-  file.setFrameBuffer(frameBuffer(image, halfs.data(), Imf::HALF, window));
+  file.setFrameBuffer(frameBuffer(image, image.channels(), halfs.data(), Imf::HALF, window));
   file.writePixels(image.height());
 }
 

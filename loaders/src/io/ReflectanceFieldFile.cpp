@@ -79,7 +79,8 @@ void writeParts(const ReflectanceField& field, const std::string& manifest, cons
 // Every part but the first must be as large as it and hold the model's layer channels; channels in a file are
 // in alphabetical order.
 Result<ExrPartShape> checkPart(const Imf::MultiPartInputFile& file, int part, const std::string& name,
-                               std::vector<std::string> channels, const std::string& where) {
+                               std::vector<std::string> channels, std::uint64_t fileBytes,
+                               const std::string& where) {
   const Imf::Header& header = file.header(part);
   if (!header.hasName() || header.name() != name)
     return fail(fmt::format("part {} is not named '{}'", part, name), where);
@@ -87,6 +88,7 @@ Result<ExrPartShape> checkPart(const Imf::MultiPartInputFile& file, int part, co
   std::sort(channels.begin(), channels.end());
   if (shape.channels != channels)
     return fail(fmt::format("the channels of part '{}' are not those of the model", name), where);
+  WEFT_TRY_VOID(checkExrPart(header, fileBytes, where));
   return shape;
 }
 
@@ -102,11 +104,13 @@ Result<FieldShape> checkParts(const Imf::MultiPartInputFile& file, const Reflect
   if (static_cast<std::size_t>(file.parts()) != layers + 1)
     return fail(fmt::format("the manifest describes {} layers, the file has {}", layers, file.parts() - 1),
                 where);
-  WEFT_TRY(const ExrPartShape shared, checkPart(file, 0, kSharedPart, model.sharedChannels(), where));
+  WEFT_TRY(const ExrPartShape shared,
+           checkPart(file, 0, kSharedPart, model.sharedChannels(), fileBytes, where));
   FieldShape shape{shared.width, shared.height, shared.precision, Precision::Half};
   for (int layer = 0; layer < static_cast<int>(layers); ++layer) {
     const std::string name = layerPart(model, layer);
-    WEFT_TRY(const ExrPartShape part, checkPart(file, layer + 1, name, model.layerChannels(), where));
+    WEFT_TRY(const ExrPartShape part,
+             checkPart(file, layer + 1, name, model.layerChannels(), fileBytes, where));
     if (part.width != shape.width || part.height != shape.height)
       return fail(fmt::format("part '{}' differs in size", name), where);
     if (part.precision == Precision::Float) shape.layers = Precision::Float;
@@ -140,6 +144,8 @@ Result<void> readParts(const std::string& path, FloatImage& shared, FloatImage& 
       Imf::InputPart part(*file, index);
       readExrPart(part, index == 0 ? shared : layers, std::max(index - 1, 0));
       return {};
+    } catch (const std::bad_alloc&) {
+      throw;  // says of itself what it is
     } catch (const std::exception& error) {
       return fail(fmt::format("part {} is damaged: {}", index, error.what()), path);
     }
@@ -172,7 +178,7 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
                                               const ModelRegistry& models) {
   const std::string where = path.string();
   WEFT_TRY(const std::uint64_t fileBytes, checkExrFile(path));
-  try {
+  return readingExr(where, [&]() -> Result<ReflectanceField> {
     const Imf::MultiPartInputFile file(where.c_str(), 0);
     const auto* attribute = file.header(0).findTypedAttribute<Imf::StringAttribute>(kManifestAttribute);
     if (!attribute)
@@ -196,9 +202,7 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
         ReflectanceField::create(*model, std::move(manifest->field), std::move(shared), std::move(layers));
     if (!field) return tl::unexpected<Error>(inFile(field.error(), where));
     return field;
-  } catch (const std::exception& error) {
-    return fail(std::string("the OpenEXR file is damaged: ") + error.what(), where);
-  }
+  });
 }
 
 std::uint64_t gpuBytes(const ReflectanceField& field) {

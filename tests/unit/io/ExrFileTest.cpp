@@ -160,7 +160,7 @@ TEST(ExrFile, RefusesMissingAndForeignFiles) {
   const fs::path folder = test::testFolder();
   EXPECT_THAT(errorOf(folder / "none.exr"), HasSubstr("none.exr: no such file"));
   test::writeBytes(folder / "text.exr", {'h', 'e', 'l', 'l', 'o'});
-  EXPECT_THAT(errorOf(folder / "text.exr"), HasSubstr("text.exr: not an OpenEXR file"));
+  EXPECT_THAT(errorOf(folder / "text.exr"), HasSubstr("text.exr: this is a text, not an OpenEXR file"));
   EXPECT_NE(errorOf(folder), "read");
 }
 

@@ -6,6 +6,10 @@
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "UnprivilegedUser.h"
+#include "weft/io/EnvironmentFile.h"
+#include "weft/io/ExrFile.h"
+#include "weft/io/ImageFile.h"
+#include "weft/io/ReflectanceFieldFile.h"
 
 namespace weft {
 namespace {
@@ -47,6 +51,18 @@ TEST(FileBytes, ThatMayNotBeReadAreNotCalledMissing) {
     }
     fs::permissions(closed, fs::perms::owner_all);
   }
+}
+
+// Opening a pipe that nobody writes to never ends; every reader that is given a path refuses it at once.
+TEST(FileBytes, NobodyWaitsForAPipe) {
+  const fs::path pipe = test::testFolder() / "pipe.rf.exr";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::vector<std::string> warnings;
+  for (const std::string& message :
+       {errorOf(pipe), readImage(pipe).error().message(), readExr(pipe).error().message(),
+        readExrPicture(pipe, warnings).error().message(), environmentNamed(pipe, warnings).error().message(),
+        readReflectanceField(pipe, ModelRegistry::builtin()).error().message()})
+    EXPECT_THAT(message, HasSubstr("pipe.rf.exr: cannot be read: not a file"));
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(ReflectanceFieldFile, RefusesMissingAndForeignFiles) {
   const fs::path folder = test::testFolder();
   EXPECT_THAT(errorOf(folder / "none.rf.exr"), HasSubstr("none.rf.exr: no such file"));
   test::writeBytes(folder / "text.rf.exr", {'h', 'e', 'l', 'l', 'o'});
-  EXPECT_THAT(errorOf(folder / "text.rf.exr"), HasSubstr("text.rf.exr: not an OpenEXR file"));
+  EXPECT_THAT(errorOf(folder / "text.rf.exr"), HasSubstr("text.rf.exr: this is a text, not an OpenEXR file"));
 }
 
 TEST(ReflectanceFieldFile, RefusesEveryTruncation) {
