@@ -55,9 +55,10 @@ PrefilteredEnvironment prefilteredTwice(const Environment& environment) {
   fmt::print("prefiltering {} x {} pixels: {:.0f} ms\n", environment.width(), environment.height(),
              millisecondsSince(start));
   if (made) {
-    prefilter(environment, folder);  // fills the cache
+    std::vector<std::string> warnings;
+    prefilter(environment, folder, warnings);  // fills the cache
     const auto startOfLoading = std::chrono::steady_clock::now();
-    prefiltered = prefilter(environment, folder);
+    prefiltered = prefilter(environment, folder, warnings);
     fmt::print("from the cache: {:.0f} ms\n", millisecondsSince(startOfLoading));
     std::filesystem::remove_all(folder);
   }

@@ -59,7 +59,7 @@ TEST_F(EnvironmentCommand, LightsExposesAndWarns) {
 TEST_F(EnvironmentCommand, WhatIsWrongIsSaid) {
   requireDone(writeWholeFile(folder / "text.hdr", "#?RADIANCE\n\n-Y 2 +X 4\n"));
   for (const auto& [file, message] : {std::pair((folder / "text.hdr").string(), "text.hdr"),
-                                      std::pair(std::string("cellar"), "cellar: no such file")}) {
+                                      std::pair(std::string("cellar"), "built in are studio and sky")}) {
     const ProgramRun run = render({"--env", file});
     EXPECT_EQ(run.exitCode, 2);
     EXPECT_THAT(run.err, HasSubstr(message));

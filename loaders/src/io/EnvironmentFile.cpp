@@ -10,12 +10,15 @@
 #include "weft/core/AtomicFile.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/FileBytes.h"
+#include "weft/io/FileKind.h"
 
 namespace weft {
 namespace {
 
-// Another one whenever PrefilteredEnvironment::create() makes something else of the same picture.
-constexpr std::string_view kMagic = "weft environment 1\n";
+// Another number whenever PrefilteredEnvironment::create() makes something else of the same picture, or files
+// hold it otherwise.
+constexpr std::string_view kMagic = "weft environment 2\n";
+constexpr std::string_view kExtension = ".2.env";
 
 using Images = std::array<FloatImage*, 3>;
 
@@ -34,23 +37,43 @@ PrefilteredEnvironment emptyEnvironment() {
 }
 
 /// FNV-1a over whole words, twice with different starts: 128 bits against chance, not against malice.
-std::string contentHash(const FloatImage& image) {
-  std::array<std::uint64_t, 2> hash{0xcbf29ce484222325u, 0x84222325cbf29ce4u};
-  const auto add = [&](std::uint64_t word) {
-    for (std::uint64_t& each : hash) {
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    for (std::uint64_t& each : words_) {
       each = (each ^ word) * 0x100000001b3u;
       each ^= each >> 29;
     }
-  };
-  add(static_cast<std::uint64_t>(image.width()));
-  add(static_cast<std::uint64_t>(image.height()));
+  }
+  std::string text() const { return fmt::format("{:016x}{:016x}", words_[0], words_[1]); }
+
+ private:
+  std::array<std::uint64_t, 2> words_{0xcbf29ce484222325u, 0x84222325cbf29ce4u};
+};
+constexpr std::size_t kHashCharacters = 32;
+
+std::string contentHash(const FloatImage& image) {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(image.width()));
+  hash.add(static_cast<std::uint64_t>(image.height()));
   const auto values = image.values();
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::uint32_t bits;
     std::memcpy(&bits, &values[i], sizeof bits);
-    add(bits);
+    hash.add(bits);
   }
-  return fmt::format("{:016x}{:016x}", hash[0], hash[1]);
+  return hash.text();
+}
+
+std::string checksumOf(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes.size());
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(sizeof(std::uint64_t), bytes.size()))) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), std::min(sizeof word, bytes.size()));
+    hash.add(word);
+  }
+  return hash.text();
 }
 
 /// A finite half that is stored as 16 bits; FloatImage promises that all values are such.
@@ -74,15 +97,22 @@ float floatOf(std::uint16_t half) {
   return sign * value;
 }
 
-std::size_t cacheBytes(const PrefilteredEnvironment& prefiltered) {
-  return kMagic.size() + sizeof(float) +
+/// Scale and values as a file holds them.
+std::size_t valueBytes(const PrefilteredEnvironment& prefiltered) {
+  return sizeof(float) +
          sizeof(std::uint16_t) * (prefiltered.lobes.values().size() + prefiltered.moments.values().size() +
                                   prefiltered.glossy.values().size());
 }
 
+/// What a file begins with: it is of this picture, and its values are as they were written.
+std::string headOf(const std::string& picture, std::string_view values) {
+  return std::string(kMagic) + picture + checksumOf(values);
+}
+constexpr std::size_t kHeadBytes = kMagic.size() + 2 * kHashCharacters;
+
 std::string packed(PrefilteredEnvironment& prefiltered) {
-  std::string bytes(kMagic);
-  bytes.reserve(cacheBytes(prefiltered));
+  std::string bytes;
+  bytes.reserve(valueBytes(prefiltered));
   bytes.append(reinterpret_cast<const char*>(&prefiltered.scale), sizeof(float));
   std::vector<std::uint16_t> halfs;
   for (const FloatImage* image : imagesOf(prefiltered)) {
@@ -93,11 +123,8 @@ std::string packed(PrefilteredEnvironment& prefiltered) {
   return bytes;
 }
 
-/// False where the bytes are not those of a prefiltered environment.
-bool unpack(std::span<const std::uint8_t> bytes, PrefilteredEnvironment& prefiltered) {
-  if (bytes.size() != cacheBytes(prefiltered) || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
-    return false;
-  const std::uint8_t* next = bytes.data() + kMagic.size();
+/// False where the values, as many as there must be, are not those of a prefiltered environment.
+bool unpack(const char* next, PrefilteredEnvironment& prefiltered) {
   std::memcpy(&prefiltered.scale, next, sizeof(float));
   next += sizeof(float);
   if (!(prefiltered.scale >= 1.0f && prefiltered.scale <= Environment::kBrightest)) return false;
@@ -114,23 +141,32 @@ bool unpack(std::span<const std::uint8_t> bytes, PrefilteredEnvironment& prefilt
   return true;
 }
 
-bool isRadiance(std::span<const std::uint8_t> bytes) {
-  return bytes.size() > 2 && bytes[0] == '#' && bytes[1] == '?';
+/// What a file keeps of a picture; fails where it is not as it was written.
+Result<PrefilteredEnvironment> readKept(const std::filesystem::path& file, const std::string& picture) {
+  PrefilteredEnvironment prefiltered = emptyEnvironment();
+  const std::size_t size = kHeadBytes + valueBytes(prefiltered);
+  WEFT_TRY(const std::vector<std::uint8_t> bytes, readFileBytes(file, size));
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.size() != size || !text.starts_with(headOf(picture, text.substr(kHeadBytes))) ||
+      !unpack(text.data() + kHeadBytes, prefiltered))
+    return fail("the prefiltered environment is damaged", file.string());
+  return prefiltered;
 }
 
-Result<FloatImage> readPicture(const std::filesystem::path& path) {
+Result<FloatImage> readPicture(const std::filesystem::path& path, std::vector<std::string>& warnings) {
+  WEFT_TRY(const std::vector<std::uint8_t> start, readFileStart(path, kFileKindBytes));
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  if (text.starts_with("v/1\x01")) return readExrPicture(path, warnings);
+  if (!text.starts_with("#?"))
+    return otherFileKind(start, "a Radiance (.hdr) or OpenEXR picture", path.string());
   WEFT_TRY(const std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestImageFile));
-  if (isRadiance(bytes)) return decodeRadiance(bytes, path.string());
-  constexpr std::array<std::uint8_t, 4> kExr{0x76, 0x2f, 0x31, 0x01};
-  if (bytes.size() < 4 || !std::equal(kExr.begin(), kExr.end(), bytes.begin()))
-    return fail("this is neither a Radiance (.hdr) nor an OpenEXR picture", path.string());
-  return readExr(path);
+  return decodeRadiance(bytes, path.string(), warnings);
 }
 
 }  // namespace
 
 Result<Environment> readEnvironment(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  WEFT_TRY(const FloatImage picture, readPicture(path));
+  WEFT_TRY(const FloatImage picture, readPicture(path, warnings));
   auto environment = Environment::create(picture, warnings);
   if (!environment) return fail(environment.error().what, path.string(), environment.error().hint);
   return environment;
@@ -146,23 +182,32 @@ std::filesystem::path cacheFolder() {
   return {};
 }
 
-PrefilteredEnvironment prefilter(const Environment& environment, const std::filesystem::path& folder) {
+PrefilteredEnvironment prefilter(const Environment& environment, const std::filesystem::path& folder,
+                                 std::vector<std::string>& warnings) {
   if (folder.empty()) return PrefilteredEnvironment::create(environment);
-  const std::filesystem::path file = folder / (contentHash(environment.image()) + ".env");
-  PrefilteredEnvironment prefiltered = emptyEnvironment();
-  if (const auto bytes = readFileBytes(file, cacheBytes(prefiltered)); bytes && unpack(*bytes, prefiltered))
-    return prefiltered;
-  prefiltered = PrefilteredEnvironment::create(environment);
+  const std::string picture = contentHash(environment.image());
+  const std::filesystem::path file = folder / (picture + std::string(kExtension));
   std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) {
+    Result<PrefilteredEnvironment> kept = readKept(file, picture);
+    if (kept) return std::move(*kept);
+    warnings.push_back(kept.error().message() + "; it is made anew");
+  }
+  PrefilteredEnvironment prefiltered = PrefilteredEnvironment::create(environment);
+  const std::string values = packed(prefiltered);
   std::filesystem::create_directories(folder, ignored);
-  (void)writeWholeFile(file, packed(prefiltered));  // without it the next run takes longer
+  (void)writeWholeFile(file, headOf(picture, values) + values);  // without it the next run takes longer
   return prefiltered;
 }
 
 Result<Environment> environmentNamed(const std::string& nameOrFile, std::vector<std::string>& warnings) {
   const std::vector<std::string> names = Environment::builtinNames();
-  const bool builtin = std::find(names.begin(), names.end(), nameOrFile) != names.end();
-  return builtin ? Environment::builtin(nameOrFile) : readEnvironment(nameOrFile, warnings);
+  if (std::ranges::find(names, nameOrFile) != names.end()) return Environment::builtin(nameOrFile);
+  std::error_code ignored;
+  if (std::filesystem::status(nameOrFile, ignored).type() == std::filesystem::file_type::not_found)
+    return fail("no such file, nor a built-in environment", nameOrFile,
+                fmt::format("built in are {}", fmt::join(names, " and ")));
+  return readEnvironment(nameOrFile, warnings);
 }
 
 }  // namespace weft

@@ -153,7 +153,7 @@ Result<void> SceneSetup::addEnvironment(const SceneOptions& options) {
   for (const std::string& warning : found) warnings_.push_back(options.environment + ": " + warning);
   // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
   const float angle = glm::radians(-static_cast<float>(std::fmod(options.environmentRotation, 360.0)));
-  const PrefilteredEnvironment prefiltered = prefilter(environment, cacheFolder());
+  const PrefilteredEnvironment prefiltered = prefilter(environment, cacheFolder(), warnings_);
   root_->addChild(std::make_shared<Transform>(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))))
       ->addChild(makeEnvironmentLight(environment, prefiltered, options.environmentLobes));
   return {};
