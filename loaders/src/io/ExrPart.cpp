@@ -124,14 +124,15 @@ Result<std::uint64_t> checkExrFile(const std::filesystem::path& path) {
     return failOtherKind(kind, "an OpenEXR file", path.string());
   stream.seekg(kMagicBytes);
   const bool multiPart = (readInteger(stream) & kMultiPartFlag) != 0;
+  const std::uint64_t mostEntries = (kFreeBytes + kMostHeaderExpansion * fileBytes) / kEntryMemory;
   std::uint64_t entries = 0;
   do {
     if (!attributesFit(stream, fileBytes, entries))
       return fail("the OpenEXR header is damaged or the file is truncated", path.string());
-  } while (multiPart && stream.peek() != 0);
-  if (entries * kEntryMemory > kFreeBytes + kMostHeaderExpansion * fileBytes)
-    return fail(fmt::format("a file of {} bytes with {} attributes and channels is not supported", fileBytes,
-                            entries),
+  } while (multiPart && entries <= mostEntries && stream.peek() != 0);
+  if (entries > mostEntries)
+    return fail(fmt::format("more than {} attributes and channels in a file of {} bytes are not supported",
+                            mostEntries, fileBytes),
                 path.string());
   return fileBytes;
 }
