@@ -39,8 +39,7 @@ constexpr std::array kSignatures{
     Signature{FileKind::Png, "\x89PNG\r\n\x1a\n"},
     Signature{FileKind::Jpeg, "\xff\xd8\xff"},
     Signature{FileKind::Exr, "\x76\x2f\x31\x01"},
-    Signature{FileKind::Radiance, "#?RADIANCE"},
-    Signature{FileKind::Radiance, "#?RGBE"},
+    Signature{FileKind::Radiance, "#?"},  // and the program's name: RADIANCE, RGBE, AUTOPANO
     Signature{FileKind::Tiff, "II*\0"sv},
     Signature{FileKind::Tiff, "II+\0"sv},
     Signature{FileKind::Tiff, "MM\0*"sv},

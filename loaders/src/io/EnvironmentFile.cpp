@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "weft/core/AtomicFile.h"
+#include "weft/core/FileKind.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/FileBytes.h"
-#include "weft/io/FileKind.h"
 
 namespace weft {
 namespace {
@@ -155,10 +155,10 @@ Result<PrefilteredEnvironment> readKept(const std::filesystem::path& file, const
 
 Result<FloatImage> readPicture(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   WEFT_TRY(const std::vector<std::uint8_t> start, readFileStart(path, kFileKindBytes));
-  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-  if (text.starts_with("v/1\x01")) return readExrPicture(path, warnings);
-  if (!text.starts_with("#?"))
-    return otherFileKind(start, "a Radiance (.hdr) or OpenEXR picture", path.string());
+  const FileKind kind = fileKind(start);
+  if (kind == FileKind::Exr) return readExrPicture(path, warnings);
+  if (kind != FileKind::Radiance)
+    return failOtherKind(kind, "a Radiance (.hdr) or OpenEXR picture", path.string());
   WEFT_TRY(const std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestImageFile));
   return decodeRadiance(bytes, path.string(), warnings);
 }

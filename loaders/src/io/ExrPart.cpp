@@ -10,9 +10,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <fstream>
-#include <system_error>
 
 #include "weft/core/FileKind.h"
 #include "weft/io/FileBytes.h"
@@ -117,11 +115,10 @@ Imf::FrameBuffer frameBuffer(const FloatImage& image, const std::vector<std::str
 
 Result<std::uint64_t> checkExrFile(const std::filesystem::path& path) {
   WEFT_TRY(const std::uint64_t fileBytes, regularFileSize(path));
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return fail("cannot be read: " + std::generic_category().message(errno), path.string());
-  if (const FileKind kind = fileKind(path); kind != FileKind::Exr)
+  WEFT_TRY(const std::vector<std::uint8_t> start, readFileStart(path, kFileKindBytes));
+  if (const FileKind kind = fileKind(start); kind != FileKind::Exr)
     return failOtherKind(kind, "an OpenEXR file", path.string());
+  std::ifstream stream(path, std::ios::binary);
   stream.seekg(kMagicBytes);
   const bool multiPart = (readInteger(stream) & kMultiPartFlag) != 0;
   const std::uint64_t mostEntries = (kFreeBytes + kMostHeaderExpansion * fileBytes) / kEntryMemory;

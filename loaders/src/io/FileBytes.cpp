@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -13,6 +14,20 @@ namespace weft {
 namespace {
 
 constexpr const char* kCheckPermissions = "check the permissions of the file and of the folders it is in";
+
+Result<std::vector<std::uint8_t>> firstBytes(const std::filesystem::path& path, std::size_t count) {
+  return withinMemory(path.string(), [&]() -> Result<std::vector<std::uint8_t>> {
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    std::vector<std::uint8_t> bytes(stream ? count : 0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) {
+      const std::string reason = errno ? std::generic_category().message(errno) : "it has become shorter";
+      return fail("cannot be read: " + reason, path.string(), kCheckPermissions);
+    }
+    return bytes;
+  });
+}
 
 }  // namespace
 
@@ -34,17 +49,12 @@ Result<std::vector<std::uint8_t>> readFileBytes(const std::filesystem::path& pat
   WEFT_TRY(const std::uint64_t size, regularFileSize(path));
   if (size > limit)
     return fail(fmt::format("the file has {} bytes, more than the {} allowed", size, limit), path.string());
-  return withinMemory(path.string(), [&]() -> Result<std::vector<std::uint8_t>> {
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    std::vector<std::uint8_t> bytes(stream ? size : 0);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) {
-      const std::string reason = errno ? std::generic_category().message(errno) : "it has become shorter";
-      return fail("cannot be read: " + reason, path.string(), kCheckPermissions);
-    }
-    return bytes;
-  });
+  return firstBytes(path, size);
+}
+
+Result<std::vector<std::uint8_t>> readFileStart(const std::filesystem::path& path, std::size_t count) {
+  WEFT_TRY(const std::uint64_t size, regularFileSize(path));
+  return firstBytes(path, std::min<std::uint64_t>(count, size));
 }
 
 }  // namespace weft

@@ -120,7 +120,7 @@ TEST(JpegImage, WhatIsNotReadIsNamed) {
 
 TEST(JpegImage, OtherFilesAreNamed) {
   EXPECT_THAT(errorOf({'G', 'I', 'F', '8', '9', 'a'}),
-              HasSubstr("a.jpg: this is a GIF image, not a JPEG or PNG image"));
+              HasSubstr("a.jpg: this is an image of another format, not a JPEG or PNG image"));
   EXPECT_THAT(errorOf({}), HasSubstr("a.jpg: this is an empty file, not a JPEG or PNG image"));
   EXPECT_THAT(errorOf({0x1b, '['}), HasSubstr("a.jpg: this is not a JPEG or PNG image"));
 }

@@ -20,4 +20,7 @@ Result<std::uint64_t> regularFileSize(const std::filesystem::path& path);
 /// or larger than `limit` bytes, which is found before memory is taken.
 Result<std::vector<std::uint8_t>> readFileBytes(const std::filesystem::path& path, std::size_t limit);
 
+/// The first bytes of a file, or all where it has fewer: what tells its kind (FileKind.h). Fails likewise.
+Result<std::vector<std::uint8_t>> readFileStart(const std::filesystem::path& path, std::size_t count);
+
 }  // namespace weft
