@@ -1,12 +1,12 @@
 #include "weft/core/AtomicFile.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <mutex>
 #include <set>
 #include <utility>
+
+#include "LockedTemporary.h"
+#include "OutputTarget.h"
 
 namespace weft {
 namespace {
@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 // An interruption concerns the whole process, so what it has to remove is known to the whole process.
 struct Pending {
   std::mutex mutex;
-  std::set<fs::path> temporaries;
+  std::set<const LockedTemporary*> temporaries;
+  std::set<fs::path> sweptFolders;
   bool interrupted = false;
-  unsigned made = 0;
 };
 
 Pending& pending() {
@@ -27,72 +27,66 @@ Pending& pending() {
   return instance;
 }
 
-fs::path folderOf(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-// Libraries that write beside the given path (libzip) append to its name.
-void removeWithCompanions(const fs::path& temporary) {
-  std::error_code ignored;
-  const std::string prefix = temporary.filename().string();
-  for (fs::directory_iterator entry(folderOf(temporary), ignored), end; entry != end;
-       entry.increment(ignored)) {
-    if (ignored) break;
-    if (entry->path().filename().string().starts_with(prefix)) fs::remove(entry->path(), ignored);
-  }
-}
-
 }  // namespace
 
-Result<AtomicFile> AtomicFile::create(const fs::path& target) {
-  std::error_code ignored;
-  if (target.filename().empty() || fs::is_directory(target, ignored))
-    return fail("the output is a folder", target.string(), "give a file name");
-  if (!fs::is_directory(folderOf(target), ignored))
-    return fail("the folder of the output does not exist", target.string(), "make the folder first");
+struct AtomicFile::Data {
+  OutputTarget target;
+  LockedTemporary temporary;
 
+  Data(OutputTarget target_, LockedTemporary temporary_)
+      : target(std::move(target_)), temporary(std::move(temporary_)) {}
+};
+
+Result<AtomicFile> AtomicFile::create(const fs::path& wanted) {
+  WEFT_TRY(OutputTarget target, OutputTarget::find(wanted));
+  WEFT_TRY(const fs::path folder, target.temporaryFolder());
   Pending& all = pending();
   const std::scoped_lock lock(all.mutex);
-  if (all.interrupted) return fail("interrupted", target.string());
-  const fs::path temporary = folderOf(target) / fmt::format(".{}.{}-{}.part", target.filename().string(),
-                                                            static_cast<long>(getpid()), all.made++);
-  if (!std::ofstream(temporary, std::ios::binary))
-    return fail("the output cannot be written", target.string(), "check the folder's permissions");
-  all.temporaries.insert(temporary);
-  return AtomicFile(target, temporary);
+  if (all.interrupted) return fail("interrupted", wanted.string());
+  if (all.sweptFolders.insert(folder).second) LockedTemporary::sweep(folder);
+  auto temporary = LockedTemporary::create(folder, target.temporaryPermissions());
+  if (!temporary)
+    return fail("the output cannot be written: " + temporary.error().what, wanted.string(),
+                temporary.error().hint);
+  auto data = std::make_unique<Data>(std::move(target), std::move(*temporary));
+  all.temporaries.insert(&data->temporary);
+  return AtomicFile(std::move(data));
 }
 
-AtomicFile::AtomicFile(fs::path target, fs::path temporary)
-    : target_(std::move(target)), temporary_(std::move(temporary)) {}
-
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+AtomicFile::AtomicFile(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept = default;
 
 AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
+  if (!data_) return;
   Pending& all = pending();
   const std::scoped_lock lock(all.mutex);
-  removeWithCompanions(temporary_);
-  all.temporaries.erase(temporary_);
+  if (all.temporaries.erase(&data_->temporary) > 0) data_->temporary.remove();
+}
+
+const fs::path& AtomicFile::temporary() const {
+  return data_->temporary.path();
 }
 
 Result<void> AtomicFile::commit() {
+  const OutputTarget& target = data_->target;
+  if (target.isStream()) return target.writeThrough(temporary());
+  WEFT_TRY_VOID(target.finish(temporary()));
   Pending& all = pending();
-  const std::scoped_lock lock(all.mutex);
-  if (all.interrupted) return fail("interrupted", target_.string());
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) return fail("cannot be renamed into place: " + error.message(), target_.string());
-  all.temporaries.erase(temporary_);
-  temporary_.clear();
-  return {};
+  {
+    const std::scoped_lock lock(all.mutex);
+    if (all.interrupted) return fail("interrupted", target.name());
+    WEFT_TRY_VOID(target.replaceBy(temporary()));
+    all.temporaries.erase(&data_->temporary);
+    data_->temporary.remove();  // what is beside it
+  }
+  return target.syncFolder();
 }
 
 void AtomicFile::removeAllPending() {
   Pending& all = pending();
   const std::scoped_lock lock(all.mutex);
   all.interrupted = true;
-  for (const fs::path& temporary : all.temporaries) removeWithCompanions(temporary);
+  for (const LockedTemporary* temporary : all.temporaries) temporary->remove();
   all.temporaries.clear();
 }
 

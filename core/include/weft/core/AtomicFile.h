@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include "weft/core/Result.h"
@@ -9,11 +10,17 @@ namespace weft {
 
 /// An output file that appears whole or not at all: write to `temporary()`, then commit().
 ///
-/// The temporary lies in the target's folder, and is removed when the object dies uncommitted or the program
-/// is interrupted (removeAllPending()). Any thread may own one; one object is for one thread.
+/// Symbolic links are followed, and a file that is there is replaced by one of its mode and owner. What is no
+/// file but can be written to (a pipe, a terminal, /dev/stdout) is never replaced: commit() copies into it.
+///
+/// The temporary lies in the target's folder (for what is no file, in the system's folder for temporary
+/// files), and is removed when the object dies uncommitted or the program is interrupted
+/// (removeAllPending()). What programs of this host left there when they were killed is removed by the first
+/// create() in that folder. Any thread may own one; one object is for one thread.
 class AtomicFile {
  public:
-  /// Fails where the target's folder does not exist or cannot be written to, or the target is a folder.
+  /// Fails where the target's folder does not exist or cannot be written to, or the target is a folder, a
+  /// disk, a socket or a file that must not be written to.
   static Result<AtomicFile> create(const std::filesystem::path& target);
 
   AtomicFile(AtomicFile&& other) noexcept;
@@ -21,8 +28,9 @@ class AtomicFile {
   ~AtomicFile();
 
   /// The path to write to; libraries may put further files beside it whose names begin with it.
-  const std::filesystem::path& temporary() const { return temporary_; }
-  /// Renames the temporary to the target, replacing what was there.
+  const std::filesystem::path& temporary() const;
+  /// Renames the temporary to the target, replacing what was there, and waits until the disk has both: what
+  /// depends on the file may go once this has returned. Once, at the end.
   Result<void> commit();
 
   /// For the end of an interrupted program: removes every uncommitted temporary and lets no file be created
@@ -30,10 +38,10 @@ class AtomicFile {
   static void removeAllPending();
 
  private:
-  AtomicFile(std::filesystem::path target, std::filesystem::path temporary);
+  struct Data;
+  explicit AtomicFile(std::unique_ptr<Data> data);
 
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;  ///< empty once committed or moved from
+  std::unique_ptr<Data> data_;  ///< none when moved from
 };
 
 /// A whole file by way of an AtomicFile; fails where it cannot be written or the disk is full.
