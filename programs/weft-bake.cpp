@@ -20,7 +20,7 @@ using namespace weft;
 constexpr double kClippedShare = 0.001;
 
 struct Arguments {
-  std::string output;
+  std::filesystem::path output;
   std::string pattern;
   std::string directions = "ubo2003";
   int size = 64;
@@ -38,9 +38,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void addOptions(CLI::App& app, Arguments& arguments) {
+void addOptions(Tool& tool, Arguments& arguments) {
+  CLI::App& app = tool.options();
   std::vector<std::string> patterns(patternNames().begin(), patternNames().end());
-  app.add_option("-o", arguments.output, "the zip to write, in UBO2003's layout")->required();
+  tool.addOutput("-o", arguments.output, "the zip to write, in UBO2003's layout")->required();
   app.add_option("--pattern", arguments.pattern, "the surface to bake")
       ->required()
       ->check(CLI::IsMember(patterns));
@@ -68,8 +69,8 @@ int surfaceResolution(int size) {
 }
 
 Result<ExitCode> bake(const Tool& tool, const Arguments& arguments) {
-  const std::filesystem::path output = arguments.output;
-  if (output.extension() != ".zip") return tool.badUsage("the output must be a .zip: " + arguments.output);
+  const std::filesystem::path& output = arguments.output;
+  if (output.extension() != ".zip") return tool.badUsage("the output must be a .zip: " + output.string());
   const Stopwatch building;
   WEFT_TRY(HeightField field, makePattern(arguments.pattern, surfaceResolution(arguments.size)));
   BakeOptions options = arguments.bake;
@@ -102,15 +103,15 @@ Result<ExitCode> bake(const Tool& tool, const Arguments& arguments) {
       {"bounces", options.bounces},
       {"scale", scale},
       {"clipped_share", clippedShare},
-      {"bytes", {{"file", std::filesystem::file_size(output)}}},
+      {"bytes", {{"file", fileBytes(output)}}},
       {"seconds", {{"build", buildSeconds}, {"bake", bakeSeconds}, {"write", writeSeconds}}},
       {"peak_memory_bytes", peakMemoryBytes()},
       {"threads", tool.threads()},
   }));
-  if (!tool.quiet() && !tool.jsonOnStdout())
-    fmt::print("{}: {} x {} texels, {} views x {} lights, scale {:.4g}, {:.3g} % of values clipped\n",
-               output.string(), arguments.size, arguments.size, options.views.size(), options.lights.size(),
-               scale, 100.0 * clippedShare);
+  tool.print(
+      fmt::format("{}: {} x {} texels, {} views x {} lights, scale {:.4g}, {:.3g} % of values clipped\n",
+                  output.string(), arguments.size, arguments.size, options.views.size(),
+                  options.lights.size(), scale, 100.0 * clippedShare));
   return ExitCode::Done;
 }
 
@@ -120,6 +121,6 @@ int main(int argc, char** argv) {
   Tool tool({"weft-bake", "Ray-traces a bidirectional texture function from small-scale geometry.",
              "weft-bake -o corduroy.zip --pattern corduroy --size 64", WEFT_VERSION});
   Arguments arguments;
-  addOptions(tool.options(), arguments);
+  addOptions(tool, arguments);
   return tool.run(argc, argv, [&] { return bake(tool, arguments); });
 }

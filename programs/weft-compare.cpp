@@ -64,9 +64,10 @@ Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
         arguments.input.string(), "allow more (--memory), or compare a part (--crop)");
   std::error_code error;
   std::filesystem::create_directory(folder, error);
-  if (!std::filesystem::is_directory(folder))
+  if (error)
     return fail("the folder cannot be made: " + error.message(), folder.string(),
                 "make the folder it is in first");
+  for (const char* name : {"index.html", "compare.json"}) WEFT_TRY_VOID(tool.checkOutput(folder / name));
 
   WEFT_TRY(const RawBtf btf, RawBtf::read(*source, crop));
   ComparisonOptions options{std::move(models), arguments.fit};
@@ -82,15 +83,13 @@ Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
   report["threads"] = tool.threads();
   WEFT_TRY_VOID(writeWholeFile(folder / "compare.json", report.dump(2) + "\n"));
   WEFT_TRY_VOID(tool.writeJson(report));
-  if (!tool.quiet() && !tool.jsonOnStdout()) {
-    fmt::print("{:<34} {:>8} {:>8} {:>9}\n", "eps of luminance", "stored", "linear", "fit, s");
-    for (const Json& model : report["models"])
-      fmt::print("{:<34} {:>8.4f} {:>8.4f} {:>9.2f}\n", model["label"].get<std::string>(),
-                 model["epsilon"]["stored"]["luminance"]["avg"].get<double>(),
-                 model["epsilon"]["linear"]["luminance"]["avg"].get<double>(),
-                 model["seconds"]["fit"].get<double>());
-    fmt::print("{}\n", (folder / "index.html").string());
-  }
+  tool.print(fmt::format("{:<34} {:>8} {:>8} {:>9}\n", "eps of luminance", "stored", "linear", "fit, s"));
+  for (const Json& model : report["models"])
+    tool.print(fmt::format("{:<34} {:>8.4f} {:>8.4f} {:>9.2f}\n", model["label"].get<std::string>(),
+                           model["epsilon"]["stored"]["luminance"]["avg"].get<double>(),
+                           model["epsilon"]["linear"]["luminance"]["avg"].get<double>(),
+                           model["seconds"]["fit"].get<double>()));
+  tool.print((folder / "index.html").string() + "\n");
   return ExitCode::Done;
 }
 

@@ -29,14 +29,15 @@ struct Arguments {
   std::filesystem::path output;
 };
 
-void addOptions(CLI::App& app, Arguments& a) {
+void addOptions(Tool& tool, Arguments& a) {
+  CLI::App& app = tool.options();
   app.add_option("FIELD", a.field, "a .rf.exr")->required();
   app.add_option("--against", a.measurement, "the measurement: a folder or zip of angle-named images");
   app.add_option("--crop", a.crop, "the texels that were fitted: X Y W H, from the top left")->expected(4);
   app.add_option("--memory", a.memoryGibibytes, "GiB for the samples that are compared at once")
       ->check(CLI::Range(0.0625, 1024.0))
       ->capture_default_str();
-  app.add_option("--report", a.report, "write errors, where they are, and pictures as a page: FILE.html")
+  tool.addOutput("--report", a.report, "write errors, where they are, and pictures as a page: FILE.html")
       ->needs("--against");
   CLI::Option* image = app.add_option_function<std::vector<double>>(
       "--image",
@@ -46,7 +47,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       },
       "write what the field gives for one view and one light, each a polar angle and an azimuth in degrees");
   image->expected(4);
-  app.add_option("-o", a.output, "the picture of --image to write, linear RGB, n.l included: FILE.exr")
+  tool.addOutput("-o", a.output, "the picture of --image to write, linear RGB, n.l included: FILE.exr")
       ->needs(image);
   image->needs("-o");
 }
@@ -78,21 +79,21 @@ Result<void> compare(const Tool& tool, const ReflectanceField& field, const Argu
   json["lobes"] = field.model().description().lobes;
   json["views"] = source->description().views.size();
   json["lights"] = source->description().lights.size();
-  json["bytes"] = {{"file", std::filesystem::file_size(arguments.field)}, {"gpu", gpuBytes(field)}};
+  json["bytes"] = {{"file", fileBytes(arguments.field)}, {"gpu", gpuBytes(field)}};
   WEFT_TRY_VOID(tool.writeJson(json));
   if (!arguments.report.empty()) WEFT_TRY_VOID(writeFieldReport(field, evaluation, arguments.report));
-  if (!tool.quiet() && !tool.jsonOnStdout()) {
-    fmt::print("{}: {}, {} x {} texels\n", arguments.field.string(), labelOf(field.model().description()),
-               field.width(), field.height());
-    fmt::print("{}", toText("eps (Meseth eq. 2)", evaluation.errors));
-    if (evaluation.heldOut) fmt::print("{}", toText("of held-out pairs", *evaluation.heldOut));
-  }
+  tool.print(fmt::format("{}: {}, {} x {} texels\n", arguments.field.string(),
+                         labelOf(field.model().description()), field.width(), field.height()));
+  tool.print(toText("eps (Meseth eq. 2)", evaluation.errors));
+  if (evaluation.heldOut) tool.print(toText("of held-out pairs", *evaluation.heldOut));
   return {};
 }
 
 Result<ExitCode> evaluate(const Tool& tool, const Arguments& arguments) {
   if (arguments.measurement.empty() && arguments.view.empty())
     return tool.badUsage("nothing to do: give --against or --image");
+  if (!arguments.view.empty() && arguments.output.extension() != ".exr")
+    return tool.badUsage("-o takes a .exr, which is what --image writes: " + arguments.output.string());
   WEFT_TRY(const ReflectanceField field, readReflectanceField(arguments.field, ModelRegistry::builtin()));
   if (!arguments.view.empty()) WEFT_TRY_VOID(writeImage(field, arguments));
   if (!arguments.measurement.empty()) WEFT_TRY_VOID(compare(tool, field, arguments));
@@ -105,6 +106,6 @@ int main(int argc, char** argv) {
   Tool tool({"weft-eval", "Says how well a reflectance field reproduces a measured BTF.",
              "weft-eval wool.rf.exr --against UBO_WOOL64.zip --report wool.html", WEFT_VERSION});
   Arguments arguments;
-  addOptions(tool.options(), arguments);
+  addOptions(tool, arguments);
   return tool.run(argc, argv, [&] { return evaluate(tool, arguments); });
 }

@@ -35,9 +35,10 @@ struct Arguments {
   FitOptions fit;
 };
 
-void addOptions(CLI::App& app, Arguments& a) {
+void addOptions(Tool& tool, Arguments& a) {
+  CLI::App& app = tool.options();
   app.add_option("INPUT", a.input, "a folder or zip of angle-named images")->required();
-  app.add_option("-o", a.output, "the .rf.exr to write")->required();
+  tool.addOutput("-o", a.output, "the .rf.exr to write")->required();
   app.add_option("--model", a.fit.model.name,
                  "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
       ->check(CLI::IsMember(ModelRegistry::builtin().names()))
@@ -83,7 +84,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--max-error", a.maximumError,
                  "end with exit code 3 if the average eps of stored luminance is above this")
       ->check(CLI::PositiveNumber);
-  app.add_option("--report", a.report, "write the errors, and where they are, as a page: FILE.html");
+  tool.addOutput("--report", a.report, "write the errors, and where they are, as a page: FILE.html");
 }
 
 // The folder of finished rows.
@@ -129,10 +130,6 @@ Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const Proce
 Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const ProcessGroup& group) {
   if (!arguments.output.string().ends_with(".rf.exr"))
     return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
-  const std::filesystem::path folder =
-      arguments.output.has_parent_path() ? arguments.output.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder))  // said before hours of fitting, not after
-    return fail("no such folder", folder.string(), "create it first");
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
   const FitOptions options = fitOptions(arguments, group);
@@ -164,7 +161,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   report["space"] = options.space == FitSpace::Linear ? "linear" : "stored";
   report["views"] = measured.views.size();
   report["lights"] = measured.lights.size();
-  report["bytes"] = {{"file", std::filesystem::file_size(arguments.output)}, {"gpu", gpuBytes(result.field)}};
+  report["bytes"] = {{"file", fileBytes(arguments.output)}, {"gpu", gpuBytes(result.field)}};
   report["seconds"] = {
       {"read", result.secondsReading}, {"fit", result.secondsFitting}, {"write", secondsWriting}};
   report["peak_memory_bytes"] = peakMemoryBytes();
@@ -174,12 +171,11 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
     WEFT_TRY_VOID(
         writeFieldReport(result.field, {result.errors, result.heldOut, result.texels, {}}, arguments.report));
 
-  if (!tool.quiet() && !tool.jsonOnStdout()) {
-    fmt::print("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(), result.field.width(),
-               result.field.height(), measured.views.size(), measured.lights.size());
-    fmt::print("{}", toText("eps (Meseth eq. 2)", result.errors));
-    if (result.heldOut) fmt::print("{}", toText("of held-out pairs", *result.heldOut));
-  }
+  tool.print(fmt::format("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(),
+                         result.field.width(), result.field.height(), measured.views.size(),
+                         measured.lights.size()));
+  tool.print(toText("eps (Meseth eq. 2)", result.errors));
+  if (result.heldOut) tool.print(toText("of held-out pairs", *result.heldOut));
   const double error = result.errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance).average;
   return arguments.maximumError > 0.0 && error > arguments.maximumError ? ExitCode::BoundMissed
                                                                         : ExitCode::Done;
@@ -191,7 +187,7 @@ int main(int argc, char** argv) {
   Tool tool({"weft-fit", "Fits a reflectance model to every texel of a measured BTF.",
              "weft-fit UBO_WOOL64.zip -o wool.rf.exr --model rfnl --lobes 2", WEFT_VERSION});
   Arguments arguments;
-  addOptions(tool.options(), arguments);
+  addOptions(tool, arguments);
   const ProcessGroup group;
   return tool.run(argc, argv, [&] { return fit(tool, arguments, group); });
 }

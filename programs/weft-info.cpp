@@ -55,21 +55,22 @@ weft::Result<Json> describeFile(const std::filesystem::path& file) {
     WEFT_TRY(const std::unique_ptr<weft::BtfSource> btf, weft::openBtf(file));
     json = describe(btf->description());
   }
-  std::error_code error;
-  if (std::filesystem::is_regular_file(file, error)) bytes["file"] = std::filesystem::file_size(file, error);
+  if (Json size = weft::fileBytes(file); !size.is_null()) bytes["file"] = std::move(size);
   json["bytes"] = bytes;
   return json;
 }
 
 // "model.name  rfnl": one line a value, names joined by dots; lists in brackets.
-void print(const Json& json, const std::string& prefix) {
+std::string linesOf(const Json& json, const std::string& prefix) {
+  std::string lines;
   for (const auto& [key, value] : json.items()) {
     const std::string name = prefix + key;
     if (value.is_object())
-      print(value, name + ".");
+      lines += linesOf(value, name + ".");
     else
-      fmt::print("{:<24} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+      lines += fmt::format("{:<24} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
   }
+  return lines;
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ int main(int argc, char** argv) {
       ->required();
   return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {
     WEFT_TRY(const Json json, describeFile(file));
-    if (!tool.jsonOnStdout()) print(json, "");
+    tool.print(linesOf(json, ""));
     WEFT_TRY_VOID(tool.writeJson(json));
     return weft::ExitCode::Done;
   });

@@ -8,7 +8,7 @@
 namespace weft {
 
 void contractBroken(const char* file, int line, std::string_view message) {
-  fmt::print(stderr, "{}:{}: contract broken: {}\n", file, line, message);
+  std::fputs(fmt::format("{}:{}: contract broken: {}\n", file, line, message).c_str(), stderr);
   std::abort();
 }
 

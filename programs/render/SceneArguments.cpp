@@ -136,9 +136,12 @@ tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
   options.time = time;
   options.animation = animation;
   if (!readCamera(camera, options))
-    return tl::unexpected<std::string>("--camera takes a name or x,y,z:tx,ty,tz");
+    return tl::unexpected(fmt::format(
+        "--camera takes a name or x,y,z:tx,ty,tz, two places of numbers up to {}", kLargestNumber));
   for (const std::string& light : lights)
-    if (!readLamp(light, options)) return tl::unexpected<std::string>("--light takes x,y,z or x,y,z:r,g,b");
+    if (!readLamp(light, options))
+      return tl::unexpected(fmt::format(
+          "--light takes x,y,z or x,y,z:r,g,b, numbers up to {}, colours not below 0", kLargestNumber));
   for (const std::string& material : materials)
     if (!readMaterial(material, options))
       return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");

@@ -19,6 +19,7 @@
 #include "weft/scene_io/SceneSetup.h"
 #include "weft/scenegraph/HeadlessWindow.h"
 #include "weft/scenegraph/RenderAction.h"
+#include "weft/tool/ShaderCache.h"
 #include "weft/tool/Tool.h"
 
 namespace {
@@ -33,7 +34,7 @@ const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
 
 struct Arguments {
   SceneArguments scene;
-  std::string output;
+  std::filesystem::path output;
   std::vector<std::string> size{"800x600"};
   double exposure = 0.0;
   std::string toneMap;
@@ -59,11 +60,14 @@ std::optional<int> sideFrom(const std::string& text) {
   return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
 }
 
-/// "--size WxH" or "--size W H", which may have taken the SCENE behind it along; none for anything else.
+/// "--size WxH", "--size W H" or "--size N", a square, which may have taken the SCENE behind it along; none
+/// for anything else.
 std::optional<Size> readSize(std::vector<std::string> words, std::string& scene) {
   if (const std::size_t cross = words[0].find('x'); cross != std::string::npos) {
     words.insert(words.begin() + 1, words[0].substr(cross + 1));
     words[0].resize(cross);
+  } else if (words.size() == 1 || (words.size() == 2 && scene.empty() && !sideFrom(words[1]))) {
+    words.insert(words.begin(), words[0]);
   }
   if (words.size() == 3 && scene.empty()) scene = words[2];
   if (words.size() < 2 || (words.size() == 3 && scene != words[2])) return std::nullopt;
@@ -75,11 +79,13 @@ std::optional<Size> readSize(std::vector<std::string> words, std::string& scene)
 /// The scene, or what is wrong with the command line.
 tl::expected<SceneOptions, std::string> readOptions(Arguments& arguments, Size& size) {
   const std::optional<Size> read = readSize(arguments.size, arguments.scene.scene);
-  if (!read) return tl::unexpected(fmt::format("--size takes WxH or W H, 1 to {} pixels", kLargestSide));
-  if (!arguments.output.ends_with(".png") && !arguments.output.ends_with(".exr"))
+  if (!read)
+    return tl::unexpected(
+        fmt::format("--size takes WxH, W H or N for a square, 1 to {} pixels", kLargestSide));
+  if (arguments.output.extension() != ".png" && arguments.output.extension() != ".exr")
     return tl::unexpected<std::string>("--output must end with .png or .exr");
   if (!(std::abs(arguments.exposure) <= kLargestExposure))
-    return tl::unexpected(fmt::format("--exposure takes up to {} stops", kLargestExposure));
+    return tl::unexpected(fmt::format("--exposure takes -{0} to {0} stops", kLargestExposure));
   auto options = arguments.scene.parse();
   if (!options) return options;
   size = *read;
@@ -104,13 +110,21 @@ Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLCont
 }
 
 /// "cloth.png" as "cloth-007.png".
-std::string numbered(const std::string& path, int number) {
-  const std::size_t end = path.size() - 4;
-  return fmt::format("{}-{:03}{}", path.substr(0, end), number, path.substr(end));
+std::filesystem::path numbered(const std::filesystem::path& path, int number) {
+  return path.parent_path() /
+         fmt::format("{}-{:03}{}", path.stem().string(), number, path.extension().string());
 }
 
-Result<void> writePicture(const std::string& path, const FloatImage& picture) {
-  if (path.ends_with(".png")) return writePng(path, picture);
+/// The files that are written, in their order.
+std::vector<std::filesystem::path> picturesOf(const Arguments& arguments) {
+  if (arguments.turntable == 0) return {arguments.output};
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < arguments.turntable; ++i) files.push_back(numbered(arguments.output, i));
+  return files;
+}
+
+Result<void> writePicture(const std::filesystem::path& path, const FloatImage& picture) {
+  if (path.extension() == ".png") return writePng(path, picture);
   return writeExr(path, picture);
 }
 
@@ -132,30 +146,32 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   Size size;
   const auto sceneOptions = readOptions(arguments, size);
   if (!sceneOptions) return tool.badUsage(sceneOptions.error());
+  const std::vector<std::filesystem::path> files = picturesOf(arguments);
+  for (const std::filesystem::path& file : files) WEFT_TRY_VOID(tool.checkOutput(file));
   WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
-  if (!tool.quiet())
-    for (const std::string& warning : setup.warnings()) fmt::print(stderr, "weft-render: {}\n", warning);
+  for (const std::string& warning : setup.warnings()) tool.warn(warning);
 
   WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
   GLContext& context = window->context();
   RenderAction renderer;
-  const bool png = arguments.output.ends_with(".png");
+  const bool png = arguments.output.extension() == ".png";
   const bool lit = !sceneOptions->environment.empty();
   const RenderTarget target(kSupersampling * size.width, kSupersampling * size.height,
                             png && !lit ? Precision::Half : Precision::Float);  // the sun overflows halfs
+  if (const auto made = target.prepare(context); !made)
+    return fail(fmt::format("with {0} x {0} samples a pixel, {1}", kSupersampling, made.error().what),
+                fmt::format("--size {}x{}", size.width, size.height), made.error().hint);
   const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
-  const int pictures = std::max(arguments.turntable, 1);
-  for (int i = 0; i < pictures; ++i) {
-    setup.turn(glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(pictures));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    setup.turn(glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(files.size()));
     WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
     FloatImage picture = target.read(context, kSupersampling);
     expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
-    WEFT_TRY_VOID(
-        writePicture(arguments.turntable > 0 ? numbered(arguments.output, i) : arguments.output, picture));
+    WEFT_TRY_VOID(writePicture(files[i], picture));
   }
 
   nlohmann::ordered_json report{{"scene", sceneOptions->scene},
-                                {"output", arguments.output},
+                                {"output", arguments.output.string()},
                                 {"width", size.width},
                                 {"height", size.height},
                                 {"views", arguments.scene.views},
@@ -180,14 +196,17 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  avoidShaderCacheOnFullDisk();
   Tool tool({"weft-render", "Renders a glTF scene or a built-in shape with measured materials to a picture.",
              "weft-render shape:cloth --material '*=wool.rf.exr' --uv-scale 12 -o wool.png", WEFT_VERSION});
   Arguments arguments;
   CLI::App& options = tool.options();
   arguments.scene.addTo(options);
-  options.add_option("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
+  tool.addOutput("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
       ->required();
-  options.add_option("--size", arguments.size, "WxH or W H in pixels")->expected(1, 3)->capture_default_str();
+  options.add_option("--size", arguments.size, "WxH, W H or N for a square, in pixels")
+      ->expected(1, 3)
+      ->capture_default_str();
   options
       .add_option("--exposure", arguments.exposure, "stops: the picture is multiplied by 2 to their power")
       ->capture_default_str();

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include "StandardStreams.h"
 
 namespace weft {
 namespace {
@@ -44,11 +44,7 @@ void ProgressPrinter::update(double fraction) {
   next_ = now + (terminal_ ? kTerminalInterval : kLogInterval);
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const std::string text = line(label_, fraction, seconds, amount_, unit_);
-  if (terminal_)
-    fmt::print(stderr, "\r\x1b[K{}{}", text, finished ? "\n" : "");
-  else
-    fmt::print(stderr, "{}\n", text);
-  std::fflush(stderr);
+  printText(stderr, terminal_ ? fmt::format("\r\x1b[K{}{}", text, finished ? "\n" : "") : text + "\n");
 }
 
 }  // namespace weft

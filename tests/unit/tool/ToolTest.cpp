@@ -72,6 +72,14 @@ TEST(Tool, ReportsExhaustedMemory) {
   EXPECT_EQ(outcome.err, "weft-test: out of memory\n");
 }
 
+TEST(Tool, ReportsExceptions) {
+  const Outcome outcome = outcomeOf({}, [](const Tool&) -> Result<ExitCode> {
+    throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again), "thread");
+  });
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_THAT(outcome.err, testing::MatchesRegex("weft-test: thread: Resource temporarily unavailable\n"));
+}
+
 TEST(Tool, RefusesBadOptionsBeforeTheWork) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--size", "-3"},
                                                     {"--size", "many"},
@@ -139,6 +147,20 @@ TEST(Tool, PrintsProgressUnlessQuiet) {
   EXPECT_EQ(outcomeOf({"--quiet"}, work).err, "");
 }
 
+TEST(Tool, QuietKeepsResultsAndWarnings) {
+  const auto work = [](const Tool& tool) -> Result<ExitCode> {
+    tool.print("eps 0.1\n");
+    tool.warn("a.png: no such file");
+    return ExitCode::Done;
+  };
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{}, {"--quiet"}}) {
+    const Outcome outcome = outcomeOf(arguments, work);
+    EXPECT_EQ(outcome.out, "eps 0.1\n");
+    EXPECT_EQ(outcome.err, "weft-test: a.png: no such file\n");
+  }
+  EXPECT_EQ(outcomeOf({"--json", "-"}, work).out, "") << "stdout belongs to the report";
+}
+
 TEST(Tool, KnowsItsPeakMemory) {
   const std::uint64_t before = peakMemoryBytes();
   std::vector<char> block(std::size_t{100} << 20, 'x');
@@ -149,7 +171,7 @@ TEST(Tool, KnowsItsPeakMemory) {
 TEST(ToolDeathTest, AnInterruptionLeavesNoBrokenFile) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const fs::path folder = test::testFolder();
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     const auto interrupted = [&] {
       runTool({}, [&](const Tool&) -> Result<ExitCode> {
         const AtomicFile file = valueOf(AtomicFile::create(folder / "out.txt"));
@@ -159,7 +181,7 @@ TEST(ToolDeathTest, AnInterruptionLeavesNoBrokenFile) {
         return ExitCode::Done;
       });
     };
-    EXPECT_EXIT(interrupted(), testing::ExitedWithCode(128 + signal), "");
+    EXPECT_EXIT(interrupted(), testing::KilledBySignal(signal), "");
     EXPECT_TRUE(fs::is_empty(folder));
   }
 }
