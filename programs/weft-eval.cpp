@@ -74,12 +74,15 @@ Result<void> compare(const Tool& tool, const ReflectanceField& field, const Argu
   WEFT_TRY(const FieldEvaluation evaluation,
            evaluateField(field, *source, crop, memory, tool.progress("comparing", texels, "texels")));
 
+  if (evaluation.warning) tool.warn(*evaluation.warning);
   Json json = Json::parse(toJson(evaluation.errors, evaluation.heldOut));
   json["model"] = field.model().description().name;
   json["lobes"] = field.model().description().lobes;
   json["views"] = source->description().views.size();
   json["lights"] = source->description().lights.size();
   json["bytes"] = {{"file", fileBytes(arguments.field)}, {"gpu", gpuBytes(field)}};
+  json["warnings"] = Json::array();
+  if (evaluation.warning) json["warnings"].push_back(*evaluation.warning);
   WEFT_TRY_VOID(tool.writeJson(json));
   if (!arguments.report.empty()) WEFT_TRY_VOID(writeFieldReport(field, evaluation, arguments.report));
   tool.print(fmt::format("{}: {}, {} x {} texels\n", arguments.field.string(),

@@ -95,6 +95,34 @@ TEST(EvalCommand, CropsNameTheTexelsThatWereFitted) {
             json::parse(std::ifstream(folder / "fit.json")).at("epsilon"));
 }
 
+// The same sizes and directions: only the errors tell.
+TEST(EvalCommand, ErrorsAgainstAnotherMeasurementAreSaid) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder), field = folder / "cloth.rf.exr", tiles = folder / "tiles.zip";
+  ASSERT_EQ(runProgram("weft-fit", {zip, "-o", field, "--model", "rfp"}).exitCode, 0);
+  ASSERT_EQ(
+      runProgram("weft-bake", {"-o", tiles, "--pattern", "tiles", "--size", "3", "--samples", "1"}).exitCode,
+      0);
+  const std::vector<std::string> crop{"--crop", "0", "0", "3", "2", "--quiet"};
+  const auto evaluate = [&](const fs::path& measurement) {
+    std::vector<std::string> arguments{
+        field, "--against", measurement, "--report", folder / "eval.html", "--json", folder / "eval.json"};
+    arguments.insert(arguments.end(), crop.begin(), crop.end());
+    return runProgram("weft-eval", arguments);
+  };
+  const ProgramRun other = evaluate(tiles);
+  EXPECT_EQ(other.exitCode, 0);
+  EXPECT_THAT(other.err, HasSubstr("tiles is not what was fitted, which was cloth: eps"));
+  EXPECT_EQ(json::parse(std::ifstream(folder / "eval.json")).at("warnings").size(), 1);
+  EXPECT_THAT(test::pageWithoutPictures(folder / "eval.html"), HasSubstr("is not what was fitted"));
+
+  fs::rename(zip, folder / "renamed.zip");
+  EXPECT_EQ(evaluate(folder / "renamed.zip").err, "") << "the same under another name";
+  EXPECT_TRUE(json::parse(std::ifstream(folder / "eval.json")).at("warnings").empty());
+  fs::rename(tiles, zip);
+  EXPECT_THAT(evaluate(zip).err, HasSubstr("cloth is not what was fitted, or not those texels"));
+}
+
 TEST(EvalCommand, BadUsageAndInputAreRefused) {
   const fs::path folder = test::testFolder();
   const fs::path field = folder / "cloth.rf.exr";
@@ -103,6 +131,11 @@ TEST(EvalCommand, BadUsageAndInputAreRefused) {
   EXPECT_EQ(runProgram("weft-eval", {field, "--image", "1", "2", "3", "4"}).exitCode, 1);
   EXPECT_EQ(runProgram("weft-eval", {field, "--image", "1", "2", "-o", folder / "a.exr"}).exitCode, 1);
   EXPECT_EQ(runProgram("weft-eval", {field, "--report", folder / "a.html"}).exitCode, 1);
+  const ProgramRun png =
+      runProgram("weft-eval", {field, "--image", "1", "2", "3", "4", "-o", folder / "a.png"});
+  EXPECT_EQ(png.exitCode, 1);
+  EXPECT_THAT(png.err, HasSubstr("-o takes a .exr"));
+  EXPECT_FALSE(fs::exists(folder / "a.png"));
   EXPECT_EQ(runProgram("weft-eval", {folder / "none.rf.exr", "--against", folder / "cloth.zip"}).exitCode, 2);
   EXPECT_EQ(runProgram("weft-eval", {field, "--against", folder / "none.zip"}).exitCode, 2);
 }

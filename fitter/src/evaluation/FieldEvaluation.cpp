@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "weft/core/Direction.h"
 #include "weft/evaluation/TexelSamples.h"
@@ -36,6 +38,29 @@ std::vector<float> layersOf(const ReflectanceField& field, int x, int y) {
 
 void put(FloatImage& image, int x, int y, glm::vec3 rgb) {
   for (int channel = 0; channel < 3; ++channel) image.at(x, y, channel) = rgb[channel];
+}
+
+/// Eps of stored luminance as the fit reported it.
+std::optional<double> reportedError(const ReflectanceFieldDescription& field) {
+  const nlohmann::json report = nlohmann::json::parse(field.fitReport, nullptr, false);
+  const nlohmann::json::json_pointer average("/epsilon/stored/luminance/avg");
+  if (!report.contains(average) || !report.at(average).is_number()) return std::nullopt;
+  return report.at(average).get<double>();
+}
+
+// Names alone prove nothing: files are renamed, and others get their names.
+std::optional<std::string> otherMeasurement(const ReflectanceFieldDescription& field,
+                                            const BtfDescription& measured, const FitErrors& errors) {
+  constexpr double kRounding = 1e-3;  // of other processors
+  const double now = errors.of(ErrorSpace::Stored, ErrorMeasure::Luminance).average;
+  const std::optional<double> then = reportedError(field);
+  if (then ? std::abs(now - *then) <= kRounding * *then : measured.name == field.source) return std::nullopt;
+  std::string text =
+      measured.name == field.source
+          ? fmt::format("{} is not what was fitted, or not those texels", measured.name)
+          : fmt::format("{} is not what was fitted, which was {}", measured.name, field.source);
+  if (then) text += fmt::format(": eps of stored luminance was {:.4f} then and is {:.4f} now", *then, now);
+  return text;
 }
 
 }  // namespace
@@ -80,6 +105,7 @@ Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSo
   }
   evaluation.errors = summarize(evaluation.texels, &SplitErrors::fitted);
   if (meter.holdsOut()) evaluation.heldOut = summarize(evaluation.texels, &SplitErrors::heldOut);
+  evaluation.warning = otherMeasurement(field.description(), measured, evaluation.errors);
   return evaluation;
 }
 

@@ -64,6 +64,7 @@ Result<void> writeFieldReport(const ReflectanceField& field, const FieldEvaluati
   HtmlReport report(fmt::format("{}: {}", description.source, labelOf(field.model().description())));
   report.paragraph(fmt::format("{} x {} texels, {} views, {} lights.", field.width(), field.height(),
                                description.views.size(), description.lights.size()));
+  if (evaluation.warning) report.paragraph(*evaluation.warning + ".");
   report.heading("Errors");
   report.paragraph(
       "eps is the mean absolute difference over all pairs of view and light, for each texel (eq. 2 of Meseth "

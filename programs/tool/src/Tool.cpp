@@ -33,7 +33,11 @@ struct Tool::Data {
   std::unique_ptr<tbb::global_control> threadLimit;
   int stdoutError = 0;  ///< errno of the first text that could not be printed
 
-  bool jsonOnStdout() const { return json == "-"; }
+  /// Whether stdout belongs to the report, also by another name.
+  bool jsonOnStdout() const {
+    std::error_code ignored;
+    return json == "-" || std::filesystem::equivalent(json, "/dev/stdout", ignored);
+  }
 
   void printMessage(const std::string& message) const {
     const char* freshLine = isatty(STDERR_FILENO) ? "\r\x1b[K" : "";

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "weft/core/FloatImage.h"
@@ -30,6 +31,9 @@ struct FieldEvaluation {
   std::optional<FitErrors> heldOut;  ///< over the others, if there are any
   std::vector<SplitErrors> texels;   ///< row by row
   std::vector<PairPictures> pairs;   ///< a few, from the top to the lowest view
+  /// Said where the errors are not those that the fit reported, so that this is another measurement, or other
+  /// texels of it.
+  std::optional<std::string> warning = {};
 };
 
 /// Compares a field with all pairs of a measurement, or of the part of it that `crop` names; its rows are
