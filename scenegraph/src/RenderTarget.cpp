@@ -17,6 +17,19 @@ struct TargetObjects {
   GLFramebuffer framebuffer;
 };
 
+GLenum colorFormat(Precision precision) {
+  return precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F;
+}
+
+/// Asks without an error; a driver may still run out of memory later.
+bool allows(GLenum format, int width, int height) {
+  GLint granted = 0;
+  glTexImage2D(GL_PROXY_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, GL_FLOAT,
+               nullptr);
+  glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &granted);
+  return granted == width;
+}
+
 GLTexture makeImage(GLenum format, int width, int height) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
@@ -27,7 +40,7 @@ GLTexture makeImage(GLenum format, int width, int height) {
 /// False where the driver has no memory for it.
 bool make(TargetObjects& objects, Precision precision, int width, int height) {
   TargetObjects made;
-  made.color = makeImage(precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F, width, height);
+  made.color = makeImage(colorFormat(precision), width, height);
   made.depth = makeImage(GL_DEPTH_COMPONENT32F, width, height);
   made.framebuffer = createGL<GLFramebuffer>(glCreateFramebuffers);
   glNamedFramebufferTexture(made.framebuffer, GL_COLOR_ATTACHMENT0, made.color, 0);
@@ -46,22 +59,27 @@ RenderTarget::RenderTarget(int width, int height, Precision precision)
   WEFT_EXPECT(width > 0 && height > 0, "a render target has a positive size");
 }
 
-void RenderTarget::bindAndClear(GLContext& context, const glm::vec4& background) const {
-  const int limit = context.limits().textureSize;
-  if (width_ > limit || height_ > limit) {
-    context.report({fmt::format("a picture of {} x {} is larger than the {} x {} that this OpenGL allows",
-                                width_, height_, limit, limit),
-                    {},
-                    {}});
-    return;
-  }
+Result<void> RenderTarget::prepare(GLContext& context) const {
   auto& objects = context.objectsOf<TargetObjects>(owner_);
-  if (!objects.framebuffer && !make(objects, precision_, width_, height_)) {
-    context.report({fmt::format("OpenGL has no memory for a picture of {} x {}", width_, height_),
-                    {},
-                    "make the picture smaller"});
-    return;
-  }
+  if (objects.framebuffer) return {};
+  const int limit = context.limits().textureSize;
+  if (width_ > limit || height_ > limit)
+    return fail(fmt::format("a picture of {} x {} is larger than the {} x {} that this OpenGL allows", width_,
+                            height_, limit, limit),
+                {}, "make the picture smaller");
+  const bool wasWell = !context.failed();
+  if (allows(colorFormat(precision_), width_, height_) && make(objects, precision_, width_, height_))
+    return {};
+  if (wasWell) (void)context.takeErrors();  // GL's own words for it
+  const double pixelBytes = precision_ == Precision::Half ? 8.0 : 16.0;
+  return fail(fmt::format("OpenGL has no memory for a picture of {} x {}, {:.1f} GiB", width_, height_,
+                          pixelBytes * width_ * height_ / (1 << 30)),
+              {}, "make the picture smaller");
+}
+
+void RenderTarget::bindAndClear(GLContext& context, const glm::vec4& background) const {
+  if (auto made = prepare(context); !made) return context.report(std::move(made.error()));
+  const auto& objects = context.objectsOf<TargetObjects>(owner_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects.framebuffer);
   glViewport(0, 0, width_, height_);
   const float farthest = 1.0f;

@@ -200,8 +200,36 @@ TEST_F(RenderCommand, RefusesBadUsage) {
   for (const char* camera : {"1,2,3:4,5", "1,2,3:1,2,3", "1e-30,0,0:0,0,0"})
     expectBadUsage(render("shape:plane", {"--camera", camera}), "--camera");
   expectBadUsage(render("shape:plane", {"--material", "wool.rf.exr"}), "--material");
-  for (const char* size : {"40", "0x30", "40x", "40xx30", "9000x30", "100000x100000", "axb"})
+  for (const char* size : {"0", "0x30", "40x", "40xx30", "9000x30", "100000x100000", "axb"})
     expectBadUsage(test::runProgram("weft-render", {"shape:plane", "-o", output, "--size", size}), "--size");
+}
+
+TEST_F(RenderCommand, OneNumberIsTheSizeOfASquare) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"shape:plane", "--size", "20"}, {"--size", "20", "shape:plane"}}) {
+    std::vector<std::string> all{"-o", output};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    ASSERT_EQ(test::runProgram("weft-render", all).exitCode, 0);
+    const Image picture = test::valueOf(readImage(output));
+    EXPECT_EQ(picture.width, 20);
+    EXPECT_EQ(picture.height, 20);
+  }
+}
+
+TEST_F(RenderCommand, APictureTooLargeForOpenGLIsNamedBySize) {
+  const ProgramRun run = test::runProgram(
+      "weft-render", {"shape:plane", "-o", (folder / "out.exr").string(), "--size", "8192x8192"});
+  if (run.exitCode == 0) GTEST_SKIP() << "this OpenGL has memory for it";
+  expectBadInput(run, "--size 8192x8192: with 2 x 2 samples a pixel, ");
+}
+
+TEST_F(RenderCommand, QuietKeepsWarnings) {
+  const std::string scene =
+      write("scene.gltf",
+            test::planeGltf(R"({"name":"base","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+                            R"("textures":[{"source":0}],"images":[{"uri":"none.png"})"))
+          .string();
+  EXPECT_THAT(render(scene, {"--quiet"}).err, HasSubstr("none.png"));
 }
 
 TEST_F(RenderCommand, ReadsTheSceneBehindTheSize) {

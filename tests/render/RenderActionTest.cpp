@@ -326,5 +326,14 @@ TEST_F(RenderTargetTest, LargerThanTheGLAllowsIsAnError) {
   EXPECT_THAT(rendered.error().what, HasSubstr("larger than"));
 }
 
+TEST_F(RenderTargetTest, LargerThanItsMemoryIsSaidInOurWords) {
+  const int side = context().limits().textureSize;
+  const RenderTarget target(side, side, Precision::Float);
+  const auto rendered = renderer.render(context(), Node(), squareCamera(), target);
+  if (rendered) GTEST_SKIP() << "this GL has memory for the largest picture";
+  EXPECT_THAT(rendered.error().what, HasSubstr("OpenGL has no memory for a picture of"));
+  EXPECT_TRUE(context().takeErrors()) << "the GL's own message is gone";
+}
+
 }  // namespace
 }  // namespace weft

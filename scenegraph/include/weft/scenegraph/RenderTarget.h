@@ -5,6 +5,7 @@
 
 #include "weft/chunks/GLContext.h"
 #include "weft/core/FloatImage.h"
+#include "weft/core/Result.h"
 
 namespace weft {
 
@@ -17,6 +18,10 @@ class RenderTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
+
+  /// Makes its images in a context, which bindAndClear() does too: for those who want to say in their own
+  /// words that a picture is too large for the GL or its memory.
+  Result<void> prepare(GLContext& context) const;
 
   /// Makes it the place that is drawn to, over its whole area, and clears it to linear RGBA; unbind() ends
   /// that.
