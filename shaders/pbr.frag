@@ -10,7 +10,8 @@
 const float pi = 3.14159265358979;
 
 // Texture units, and where each texture lies.
-const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, occlusionUnit = 4, unitCount = 5;
+const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, occlusionUnit = 4;
+const int specularUnit = 5, specularColorUnit = 6, unitCount = 7;
 
 struct Placement {
   vec4 matrix;  // 2 x 2, columns
@@ -20,7 +21,7 @@ struct Placement {
 layout(std140, binding = 2) uniform PBR {
   vec4 baseColorFactor;  // linear
   vec4 emissionFactor;   // rgb: linear; w: alpha below which ALPHA_MASK draws nothing
-  vec4 fresnel;          // of the dielectric: F0; w: F90
+  vec4 fresnel;          // of the dielectric: F0 before it is clamped; w: specular
   vec4 factors;          // metallic, roughness, scale of the normal texture, strength of the occlusion
   vec4 normalFrame;      // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent
   Placement placements[unitCount];
@@ -31,6 +32,8 @@ layout(binding = metallicRoughnessUnit) uniform sampler2D metallicRoughnessTextu
 layout(binding = normalUnit) uniform sampler2D normalTexture;
 layout(binding = emissionUnit) uniform sampler2D emissionTexture;
 layout(binding = occlusionUnit) uniform sampler2D occlusionTexture;
+layout(binding = specularUnit) uniform sampler2D specularTexture;
+layout(binding = specularColorUnit) uniform sampler2D specularColorTexture;
 
 in vec3 position;
 in vec3 normal;
@@ -48,6 +51,8 @@ struct Surface {
   float metallic;
   float roughness;
   float alpha;  // of GGX
+  vec3 f0;      // of the dielectric
+  float f90;
 };
 
 vec4 fetch(sampler2D image, int unit) {
@@ -80,7 +85,15 @@ Surface surfaceOf(vec3 base) {
   roughness *= texel.g;
 #endif
   roughness = max(roughness, 0.045);
-  return Surface(base, metallic, roughness, roughness * roughness);
+  vec3 f0 = fresnel.rgb;
+#ifdef SPECULAR_COLOR_TEXTURE
+  f0 *= fetch(specularColorTexture, specularColorUnit).rgb;
+#endif
+  float specular = fresnel.w;
+#ifdef SPECULAR_TEXTURE
+  specular *= fetch(specularTexture, specularUnit).a;
+#endif
+  return Surface(base, metallic, roughness, roughness * roughness, specular * min(f0, vec3(1.0)), specular);
 }
 
 // Unit; on a back face the whole mapped normal turns.
@@ -103,7 +116,7 @@ vec3 reflectance(Surface surface, vec3 n, vec3 v, vec3 l, float nl) {
   float nv = max(abs(dot(n, v)), 1e-4);  // a normal texture may look away
   float specular = microfacets(surface.alpha, n, h, nl, nv);
   float weight = pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
-  vec3 reflected = mix(fresnel.rgb, vec3(fresnel.w), weight);
+  vec3 reflected = mix(surface.f0, vec3(surface.f90), weight);
   float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
   specular *= specularPart;
   vec3 dielectric = diffusePart * entering * surface.base / pi + reflected * specular;
@@ -127,7 +140,7 @@ vec3 fromEnvironment(Surface surface, vec3 n, vec3 v) {
   vec2 shares = microfacetShares(clamp(abs(nv), 0.0, 1.0), surface.roughness);
   vec3 mirrored = specularPart * glossyAround(toEnvironment(2.0 * nv * n - v), surface.roughness);
   vec3 matt = diffusePart * mattAround(toEnvironment(n));
-  vec3 reflected = fresnel.rgb * shares.x + fresnel.w * shares.y;
+  vec3 reflected = surface.f0 * shares.x + surface.f90 * shares.y;
   float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
   vec3 dielectric = entering * surface.base * matt + reflected * mirrored;
   vec3 metal = (surface.base * shares.x + shares.y) * mirrored;

@@ -22,6 +22,8 @@ enum Unit : unsigned {
   NormalUnit,
   EmissionUnit,
   OcclusionUnit,
+  SpecularUnit,
+  SpecularColorUnit,
   UnitCount
 };
 
@@ -33,7 +35,7 @@ struct PlacementBlock {
 struct PBRBlock {
   glm::vec4 baseColor;
   glm::vec4 emission;      ///< rgb, w: alpha cutoff
-  glm::vec4 fresnel;       ///< of the dielectric: F0, w: F90
+  glm::vec4 fresnel;       ///< of the dielectric: F0 before it is clamped, w: specular
   glm::vec4 factors;       ///< metallic, roughness, normal scale, occlusion strength
   glm::vec4 tangentFrame;  ///< of the normal texture, columns
   std::array<PlacementBlock, UnitCount> placements;
@@ -46,16 +48,16 @@ PlacementBlock blockOf(const TexturePlacement& placement) {
 
 PBRBlock blockOf(const PBROptions& options) {
   const float ratio = (options.refractiveIndex - 1.0f) / (options.refractiveIndex + 1.0f);
-  const glm::vec3 f0 = glm::min(ratio * ratio * options.specularColor, glm::vec3(1.0f)) * options.specular;
   const glm::mat2 frame = options.normalTexture.placement.tangentFrame();
   return {options.baseColor,
           {options.emission, options.alphaCutoff},
-          {f0, options.specular},
+          {ratio * ratio * options.specularColor, options.specular},
           {options.metallic, options.roughness, options.normalScale, options.occlusionStrength},
           {frame[0], frame[1]},
           {blockOf(options.baseColorTexture.placement), blockOf(options.metallicRoughnessTexture.placement),
            blockOf(options.normalTexture.placement), blockOf(options.emissionTexture.placement),
-           blockOf(options.occlusionTexture.placement)}};
+           blockOf(options.occlusionTexture.placement), blockOf(options.specularTexture.placement),
+           blockOf(options.specularColorTexture.placement)}};
 }
 
 }  // namespace
@@ -90,6 +92,8 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
     add(MetallicRoughnessUnit, options.metallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE");
     add(NormalUnit, options.normalTexture, "NORMAL_TEXTURE");
     add(OcclusionUnit, options.occlusionTexture, "OCCLUSION_TEXTURE");
+    add(SpecularUnit, options.specularTexture, "SPECULAR_TEXTURE");
+    add(SpecularColorUnit, options.specularColorTexture, "SPECULAR_COLOR_TEXTURE");
   }
   if (options.alphaMode == AlphaMode::Mask) define("ALPHA_MASK");
   if (options.alphaMode == AlphaMode::Blend) {

@@ -56,6 +56,8 @@ struct PBROptions {
   PBRTexture emissionTexture{};  ///< made with TextureOptions::srgb
   float specular = 1.0f;         ///< KHR_materials_specular: 0 leaves of a dielectric the matt part alone
   glm::vec3 specularColor{1.0f};
+  PBRTexture specularTexture{};       ///< a: specular
+  PBRTexture specularColorTexture{};  ///< made with TextureOptions::srgb
   float refractiveIndex = 1.5f;  ///< of a dielectric (KHR_materials_ior)
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5f;
