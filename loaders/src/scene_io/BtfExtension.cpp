@@ -5,7 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "GltfFile.h"
+#include "GltfContainer.h"
+#include "GltfReference.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Contract.h"
 #include "weft/io/FileBytes.h"
@@ -38,7 +39,7 @@ bool refersToFiles(const Json& root) {
     if (found == root.end() || !found->is_array()) continue;
     for (const Json& object : *found)
       if (object.is_object() && object.contains("uri") && object["uri"].is_string() &&
-          !object["uri"].get<std::string>().starts_with("data:"))
+          !isDataUri(object["uri"].get_ref<const std::string&>()))
         return true;
   }
   return false;
@@ -92,9 +93,9 @@ std::string withJson(const std::vector<std::uint8_t>& file, std::string_view old
 Result<void> writeBtfExtension(const std::filesystem::path& source, const std::filesystem::path& target,
                                const std::map<std::string, BtfExtension>& materials) {
   WEFT_TRY(const std::vector<std::uint8_t> bytes, readGltfBytes(source));
-  WEFT_TRY(const std::string_view text, jsonOf(bytes, source));
-  Json root = Json::parse(text, nullptr, false);
-  if (!root.is_object()) return fail("this is not valid glTF", source.string());
+  WEFT_TRY(const GltfContainer container, containerOf(bytes, source));
+  WEFT_TRY(Json root, parseJson(container, source));
+  const std::string_view text = container.json;
   std::error_code ignored;
   const std::filesystem::path folder = std::filesystem::absolute(target, ignored).parent_path();
   if (std::filesystem::absolute(source, ignored).parent_path() != folder && refersToFiles(root))

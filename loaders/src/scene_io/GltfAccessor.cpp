@@ -7,8 +7,6 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t kMostElements = 100'000'000;
-
 std::size_t componentSize(int componentType) {
   switch (componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -28,7 +26,7 @@ std::string nameOf(int accessor) {
   return "accessor " + std::to_string(accessor);
 }
 
-/// Elements in a buffer, all of them inside; `first` null: zeros.
+/// Elements in a buffer, all of them inside.
 struct Elements {
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;
@@ -76,31 +74,57 @@ Result<std::uint32_t> unsignedAt(const GltfFile& file, const std::uint8_t* bytes
   }
 }
 
-/// For every element of an accessor where its bytes are; null: zeros.
-Result<std::vector<const std::uint8_t*>> placesOf(const GltfFile& file, int index, std::size_t components) {
+/// The elements of an accessor, whole or replaced by sparse ones.
+class AccessorElements {
+ public:
+  static Result<AccessorElements> create(const GltfFile& file, int index, std::size_t components);
+
+  std::size_t count() const { return count_; }
+  /// Null: zeros.
+  const std::uint8_t* at(std::uint32_t index) const {
+    const auto sparse = std::lower_bound(replaced_.begin(), replaced_.end(), Replaced{index, nullptr});
+    if (sparse != replaced_.end() && sparse->index == index) return sparse->bytes;
+    return elements_.first ? elements_.at(index) : nullptr;
+  }
+
+ private:
+  struct Replaced {
+    std::uint32_t index;
+    const std::uint8_t* bytes;
+
+    bool operator<(const Replaced& other) const { return index < other.index; }
+  };
+
+  Result<void> readSparse(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t size,
+                          const std::string& name);
+
+  std::size_t count_ = 0;
+  Elements elements_{};
+  std::vector<Replaced> replaced_{};  ///< by index
+};
+
+Result<AccessorElements> AccessorElements::create(const GltfFile& file, int index, std::size_t components) {
   WEFT_TRY(const tinygltf::Accessor* accessor, accessorAt(file, index));
   const std::string name = nameOf(index);
   WEFT_TRY(const std::size_t actual, componentsOf(file, index));
   if (actual != components)
     return file.fail(name + " does not have " + std::to_string(components) + " components");
   const std::size_t size = components * componentSize(accessor->componentType);
-  std::vector<const std::uint8_t*> places;
-  if (accessor->bufferView >= 0 || !accessor->sparse.isSparse) {
-    WEFT_TRY(const Elements elements,
+  AccessorElements elements;
+  elements.count_ = accessor->count;
+  if (accessor->bufferView >= 0) {
+    WEFT_TRY(elements.elements_,
              elementsIn(file, accessor->bufferView, accessor->byteOffset, accessor->count, size, name));
-    places.resize(elements.count);
-    for (std::size_t i = 0; i < elements.count; ++i) places[i] = elements.at(i);
-  } else {
-    // No bytes stand behind these, so that a small file could ask for any amount of memory.
-    if (accessor->count == 0 || accessor->count > kMostElements)
-      return file.fail(name + " is empty or too large");
-    places.resize(accessor->count);
+  } else if (accessor->count == 0 || accessor->count > std::numeric_limits<std::uint32_t>::max()) {
+    return file.fail(name + " is empty or too large");
   }
-  if (!accessor->sparse.isSparse) return places;
+  if (accessor->sparse.isSparse) WEFT_TRY_VOID(elements.readSparse(file, *accessor, size, name));
+  return elements;
+}
 
-  const auto& sparse = accessor->sparse;
-  if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-    return file.fail(name + " has a negative offset or count");
+Result<void> AccessorElements::readSparse(const GltfFile& file, const tinygltf::Accessor& accessor,
+                                          std::size_t size, const std::string& name) {
+  const auto& sparse = accessor.sparse;
   const auto count = static_cast<std::size_t>(sparse.count);
   WEFT_TRY(const Elements indices,
            elementsIn(file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
@@ -110,10 +134,11 @@ Result<std::vector<const std::uint8_t*>> placesOf(const GltfFile& file, int inde
                       count, size, name));
   for (std::size_t i = 0; i < count; ++i) {
     WEFT_TRY(const std::uint32_t target, unsignedAt(file, indices.at(i), sparse.indices.componentType, name));
-    if (target >= places.size()) return file.fail(name + " replaces an element that it does not have");
-    places[target] = values.at(i);
+    if (target >= count_) return file.fail(name + " replaces an element that it does not have");
+    replaced_.push_back({target, values.at(i)});
   }
-  return places;
+  std::stable_sort(replaced_.begin(), replaced_.end());
+  return {};
 }
 
 template <class Integer>
@@ -151,29 +176,40 @@ Result<std::size_t> componentsOf(const GltfFile& file, int accessor) {
   return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(found->type)));
 }
 
-Result<std::vector<float>> readFloats(const GltfFile& file, int index, std::size_t components) {
-  WEFT_TRY(const std::vector<const std::uint8_t*> places, placesOf(file, index, components));
+Result<std::size_t> countOf(const GltfFile& file, int accessor) {
+  WEFT_TRY(const std::size_t components, componentsOf(file, accessor));
+  WEFT_TRY(const AccessorElements elements, AccessorElements::create(file, accessor, components));
+  return elements.count();
+}
+
+Result<std::vector<float>> readFloats(const GltfFile& file, int index, std::size_t components,
+                                      const ElementChoice& choice) {
+  WEFT_TRY(const AccessorElements elements, AccessorElements::create(file, index, components));
   const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
   const std::size_t size = componentSize(accessor.componentType);
-  std::vector<float> values;
-  values.reserve(places.size() * components);
-  for (const std::uint8_t* place : places)
-    for (std::size_t k = 0; k < components; ++k) {
-      const float value =
-          place ? componentToFloat(place + k * size, accessor.componentType, accessor.normalized) : 0.0f;
+  const std::size_t count = choice ? choice->size() : elements.count();
+  WEFT_TRY_VOID(file.checkMemory(count * components * sizeof(float), nameOf(index)));
+  std::vector<float> values(count * components);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t* place = elements.at(choice ? (*choice)[i] : static_cast<std::uint32_t>(i));
+    for (std::size_t k = 0; place && k < components; ++k) {
+      const float value = componentToFloat(place + k * size, accessor.componentType, accessor.normalized);
       if (!std::isfinite(value)) return file.fail(nameOf(index) + " holds a value that is not finite");
-      values.push_back(value);
+      values[i * components + k] = value;
     }
+  }
   return values;
 }
 
 Result<std::vector<std::uint32_t>> readIndices(const GltfFile& file, int index) {
-  WEFT_TRY(const std::vector<const std::uint8_t*> places, placesOf(file, index, 1));
+  WEFT_TRY(const AccessorElements elements, AccessorElements::create(file, index, 1));
+  WEFT_TRY_VOID(file.checkMemory(elements.count() * sizeof(std::uint32_t), nameOf(index)));
   const int type = file.model.accessors[static_cast<std::size_t>(index)].componentType;
   constexpr std::uint8_t zeros[4] = {};
-  std::vector<std::uint32_t> indices(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    WEFT_TRY(indices[i], unsignedAt(file, places[i] ? places[i] : zeros, type, nameOf(index)));
+  std::vector<std::uint32_t> indices(elements.count());
+  for (std::uint32_t i = 0; i < indices.size(); ++i) {
+    const std::uint8_t* place = elements.at(i);
+    WEFT_TRY(indices[i], unsignedAt(file, place ? place : zeros, type, nameOf(index)));
   }
   return indices;
 }

@@ -4,19 +4,38 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "GltfDraco.h"
+#include "GltfMeshopt.h"
+
 namespace weft {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 8> kKnownExtensions{
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_specular",
-    "KHR_materials_unlit",   "KHR_mesh_quantization",
-    "KHR_texture_transform", "WEFT_materials_btf"};
+constexpr auto kKnownExtensions = std::to_array<std::string_view>({
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "WEFT_materials_btf",
+});
 
 std::string textOf(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A member, shortened, that is a text or number; else empty.
+std::string textMember(const Json& object, const char* key) {
+  constexpr std::size_t kLongest = 20;
+  if (!object.is_object()) return {};
+  const auto found = object.find(key);
+  if (found == object.end() || (!found->is_string() && !found->is_number())) return {};
+  return (found->is_string() ? found->get<std::string>() : found->dump()).substr(0, kLongest);
 }
 
 /// A JSON pointer's token: "~" and "/" would end it.
@@ -49,12 +68,13 @@ void collect(const Json& value, const std::string& place, std::vector<GltfData>&
 }  // namespace
 
 bool isKnownExtension(std::string_view name) {
+  if (name == kDracoExtension) return kUnpacksDraco;
+  if (name == kMeshoptExtension) return kUnpacksMeshopt;
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
 }
 
-GltfContents contentsOf(std::string_view json) {
+GltfContents contentsOf(const Json& root) {
   GltfContents contents;
-  const Json root = Json::parse(json, nullptr, false);
   if (!root.is_object()) return contents;
   collect(root, "", contents.data);
   if (const auto materials = root.find("materials"); materials != root.end() && materials->is_array())
@@ -62,9 +82,10 @@ GltfContents contentsOf(std::string_view json) {
   if (const auto required = root.find("extensionsRequired"); required != root.end() && required->is_array())
     for (const Json& name : *required)
       if (name.is_string()) contents.required.push_back(name.get<std::string>());
-  if (const auto asset = root.find("asset"); asset != root.end() && asset->is_object())
-    if (const auto version = asset->find("version"); version != asset->end() && version->is_string())
-      contents.version = version->get<std::string>();
+  if (const auto asset = root.find("asset"); asset != root.end()) {
+    contents.version = textMember(*asset, "version");
+    contents.minVersion = textMember(*asset, "minVersion");
+  }
   return contents;
 }
 

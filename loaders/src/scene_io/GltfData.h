@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,10 @@ struct GltfContents {
   std::vector<std::string> materials;  ///< each one's text
   std::vector<std::string> required;   ///< extensions that the file cannot be shown without
   std::string version;                 ///< "2.0"
+  std::string minVersion;              ///< of glTF, that readers must know; mostly empty
 };
 
-/// Of a file's JSON that is not nested deeply; what is not JSON gives nothing.
-GltfContents contentsOf(std::string_view json);
+/// Of a file's JSON, which is not nested deeply; its types need not be right.
+GltfContents contentsOf(const nlohmann::ordered_json& root);
 
 }  // namespace weft

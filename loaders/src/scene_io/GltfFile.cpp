@@ -4,82 +4,27 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <exception>
-#include <string_view>
-#include <system_error>
+#include <map>
+#include <nlohmann/json.hpp>
 
+#include "GltfBuffers.h"
+#include "GltfContainer.h"
+#include "GltfDraco.h"
+#include "GltfMeshopt.h"
+#include "GltfReference.h"
+#include "GltfShape.h"
 #include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 31;
-constexpr int kDeepestJson = 64;
+using Json = nlohmann::ordered_json;
 
-/// How deeply arrays and objects are nested; tinygltf descends by recursion.
-int jsonDepth(std::string_view json) {
-  int depth = 0, deepest = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (inString && c == '\\')
-      ++i;
-    else if (c == '"')
-      inString = !inString;
-    else if (!inString && (c == '{' || c == '['))
-      deepest = std::max(deepest, ++depth);
-    else if (!inString && (c == '}' || c == ']'))
-      --depth;
-  }
-  return deepest;
-}
-
-bool isBinary(const std::vector<std::uint8_t>& bytes) {
-  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-}
-
-std::uint32_t wordAt(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
-  std::uint32_t word = 0;  // little-endian, as every machine that GL runs on
-  std::memcpy(&word, bytes.data() + offset, sizeof word);
-  return word;
-}
-
-bool isImagePath(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
-/// What tinygltf may do with files: read what stands beside the glTF, and nothing else. Its own functions
-/// look into the working directory too, and expand paths as a shell would.
-tinygltf::FsCallbacks fileAccess(std::string& folder) {
-  tinygltf::FsCallbacks access{};
-  access.FileExists = [](const std::string& path, void* data) {
-    // Images are read later, and only those in use.
-    return path.starts_with(*static_cast<std::string*>(data)) && !isImagePath(path) &&
-           std::filesystem::is_regular_file(path);
-  };
-  access.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  access.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                            void*) {
-    auto bytes = readFileBytes(path, kLargestFile);
-    if (!bytes && error) *error = bytes.error().what;
-    if (bytes) *out = std::move(*bytes);
-    return bytes.has_value();
-  };
-  access.WriteWholeFile = nullptr;
-  access.user_data = &folder;
-  return access;
-}
-
-/// Keeps the bytes of an image that is written into the JSON; everything else imageBytes() finds again.
-bool keepImageBytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                    const unsigned char* bytes, int size, void*) {
-  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
-  return true;
-}
+// Meshes take 4 to 50 bytes for each of their file (indices of triangles without normals most), packed ones
+// up to hundreds.
+constexpr std::size_t kFreeMemory = std::size_t{64} << 20;
+constexpr std::size_t kMemoryPerByte = 128, kMemoryPerPackedByte = 1024;
 
 std::string oneLine(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
@@ -88,64 +33,118 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-/// The names of required extensions that nobody knows, as a list; empty without any.
-std::string unknownRequirements(const GltfContents& contents, const GltfOptions& options) {
+/// "2.0" as 2 and 0.
+std::pair<int, int> versionFrom(const std::string& text) {
+  std::pair<int, int> version{-1, 0};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, version.first);
+  if (error == std::errc() && rest != end && *rest == '.') std::from_chars(rest + 1, end, version.second);
+  return version;
+}
+
+/// Whether Weft reads this version of glTF; a later 2.x, too, unless it says that 2.0 will not do.
+Result<void> checkVersion(const GltfFile& file) {
+  const auto& [version, minimum] = std::pair(file.contents.version, file.contents.minVersion);
+  if (!version.empty() && versionFrom(version).first != 2)
+    return file.fail("this is glTF " + version + ", not 2.0");
+  if (!minimum.empty() && versionFrom(minimum) > std::pair(2, 0))
+    return file.fail("this needs glTF " + minimum + " (asset.minVersion), and Weft reads 2.0");
+  return {};
+}
+
+/// Fails where the file needs an extension that nobody knows.
+Result<void> checkRequirements(const GltfFile& file, const GltfOptions& options) {
   std::string names;
-  for (const std::string& extension : contents.required)
+  for (const std::string& extension : file.contents.required)
     if (!isKnownExtension(extension) && !options.extensions.contains(extension))
       names += (names.empty() ? "" : ", ") + extension;
-  return names;
+  if (names.empty()) return {};
+  return file.fail("the file requires extensions that Weft does not know: " + names);
+}
+
+/// Leaves tinygltf what it does well: no buffers, which it refuses when they are longer than they say, and
+/// no images.
+Result<void> parseModel(Json root, GltfFile& file) {
+  root.erase("buffers");
+  root.erase("images");
+  // It refuses indices without a buffer view, which are zeros or packed: it is shown one.
+  std::vector<std::size_t> bare;
+  if (const auto accessors = root.find("accessors"); accessors != root.end())
+    for (std::size_t i = 0; i < accessors->size(); ++i)
+      if (!(*accessors)[i].contains("bufferView")) bare.push_back(i);
+  Json& views = root["bufferViews"];
+  for (const std::size_t accessor : bare) root["accessors"][accessor]["bufferView"] = views.size();
+  views.push_back({{"buffer", 0}, {"byteLength", 0}});
+
+  const std::string text = root.dump();
+  tinygltf::TinyGLTF parser;
+  std::string error, warning;
+  try {
+    if (!parser.LoadASCIIFromString(&file.model, &error, &warning, text.c_str(),
+                                    static_cast<unsigned int>(text.size()), ""))
+      return file.fail("this is not valid glTF: " + oneLine(error));
+  } catch (const std::exception& exception) {
+    return file.fail(std::string("this is not valid glTF: ") + exception.what());
+  }
+  file.model.bufferViews.pop_back();
+  for (const std::size_t accessor : bare) file.model.accessors[accessor].bufferView = -1;
+  return {};
+}
+
+void listImages(const Json& root, GltfFile& file) {
+  const auto images = root.find("images");
+  for (std::size_t i = 0; images != root.end() && i < images->size(); ++i) {
+    tinygltf::Image& image = file.model.images.emplace_back();
+    image.uri = (*images)[i].value("uri", "");
+    image.bufferView = (*images)[i].value("bufferView", -1);
+  }
+}
+
+bool isPacked(const GltfFile& file) {
+  const auto& used = file.model.extensionsUsed;
+  return std::any_of(used.begin(), used.end(), [](const std::string& name) {
+    return name == kDracoExtension || name == kMeshoptExtension;
+  });
+}
+
+std::size_t memoryLimitOf(const GltfFile& file, std::size_t fileSize) {
+  std::map<const void*, std::size_t> owners;
+  for (const GltfBuffer& buffer : file.buffers)
+    if (buffer.owner) owners[buffer.owner.get()] = buffer.owner->size();
+  std::size_t bytes = fileSize;
+  for (const auto& [owner, size] : owners) bytes += size;
+  return kFreeMemory + (isPacked(file) ? kMemoryPerPackedByte : kMemoryPerByte) * bytes;
 }
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> readGltfBytes(const std::filesystem::path& path) {
-  return readFileBytes(path, kLargestFile);
+Result<void> GltfFile::checkMemory(std::size_t bytes, const std::string& what) const {
+  if (bytes <= memoryLimit) return {};
+  return fail(what + " would take " + std::to_string(bytes >> 20) + " MB, more than the " +
+              std::to_string(memoryLimit >> 20) + " MB that a file of this size may take");
 }
 
-Result<std::string_view> jsonOf(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path) {
-  std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (isBinary(bytes)) {
-    if (bytes.size() < 20) return fail("the file is truncated", path.string());
-    if (wordAt(bytes, 4) != 2) return fail("this is not glTF 2.0", path.string());
-    const std::size_t length = wordAt(bytes, 8), jsonLength = wordAt(bytes, 12);
-    if (length > bytes.size() || jsonLength > bytes.size() - 20)
-      return fail("the file is truncated", path.string());
-    json = json.substr(20, jsonLength);
-  }
-  if (jsonDepth(json) > kDeepestJson) return fail("the JSON is nested too deeply", path.string());
-  return json;
+int GltfFile::addBuffer(std::vector<std::uint8_t> bytes) {
+  const auto owner = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+  buffers.push_back({owner, *owner});
+  return static_cast<int>(buffers.size()) - 1;
 }
 
 Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptions& options) {
-  WEFT_TRY(std::vector<std::uint8_t> bytes, readGltfBytes(path));
-  WEFT_TRY(const std::string_view json, jsonOf(bytes, path));
-  GltfFile file{path, {}, contentsOf(json), {}};
-  if (file.contents.version.starts_with("1.") || file.contents.version.starts_with("0."))
-    return file.fail("this is glTF " + file.contents.version + ", not 2.0");
-  if (const std::string names = unknownRequirements(file.contents, options); !names.empty())
-    return file.fail("the file requires extensions that Weft does not know: " + names);
-
-  const auto size = static_cast<unsigned int>(bytes.size());
-  // tinygltf's check of the second chunk of a .glb reads 8 bytes beyond the end of a truncated file.
-  bytes.resize(bytes.size() + 8);
-  tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(keepImageBytes, nullptr);
-  std::error_code ignored;
-  std::string folder = std::filesystem::absolute(path, ignored).parent_path().string();
-  parser.SetFsCallbacks(fileAccess(folder));
-  std::string error, warning;
-  try {
-    const bool parsed =
-        isBinary(bytes)
-            ? parser.LoadBinaryFromMemory(&file.model, &error, &warning, bytes.data(), size, folder)
-            : parser.LoadASCIIFromString(&file.model, &error, &warning,
-                                         reinterpret_cast<const char*>(bytes.data()), size, folder);
-    if (!parsed) return file.fail("this is not valid glTF: " + oneLine(error));
-  } catch (const std::exception& exception) {
-    return file.fail(std::string("this is not valid glTF: ") + exception.what());
-  }
-  file.warning = oneLine(error);
+  WEFT_TRY(std::vector<std::uint8_t> read, readGltfBytes(path));
+  const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(read));
+  WEFT_TRY(const GltfContainer container, containerOf(*bytes, path));
+  WEFT_TRY(Json root, parseJson(container, path));
+  GltfFile file{path, {}, {}, contentsOf(root), {}, 0};
+  WEFT_TRY_VOID(checkVersion(file));
+  WEFT_TRY_VOID(checkRequirements(file, options));
+  WEFT_TRY_VOID(checkShape(root, path, file.warnings));
+  WEFT_TRY_VOID(readBuffers(root, {bytes, container.binary}, file));
+  listImages(root, file);
+  WEFT_TRY_VOID(parseModel(std::move(root), file));
+  file.memoryLimit = memoryLimitOf(file, bytes->size());
+  WEFT_TRY_VOID(unpackMeshopt(file));
+  WEFT_TRY_VOID(unpackDraco(file));
   return file;
 }
 
@@ -154,12 +153,17 @@ Result<std::span<const std::uint8_t>> viewBytes(const GltfFile& file, int index)
   if (index < 0 || static_cast<std::size_t>(index) >= file.model.bufferViews.size())
     return file.fail(name + " does not exist");
   const tinygltf::BufferView& view = file.model.bufferViews[static_cast<std::size_t>(index)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.model.buffers.size())
+  return bytesIn(file, view.buffer, view.byteOffset, view.byteLength, name);
+}
+
+Result<std::span<const std::uint8_t>> bytesIn(const GltfFile& file, int buffer, std::size_t offset,
+                                              std::size_t length, const std::string& name) {
+  if (buffer < 0 || static_cast<std::size_t>(buffer) >= file.buffers.size())
     return file.fail(name + " names a buffer that does not exist");
-  const std::vector<unsigned char>& data = file.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+  const std::span<const std::uint8_t> bytes = file.buffers[static_cast<std::size_t>(buffer)].bytes;
+  if (offset > bytes.size() || length > bytes.size() - offset)
     return file.fail(name + " reaches beyond its buffer");
-  return std::span<const std::uint8_t>(data).subspan(view.byteOffset, view.byteLength);
+  return bytes.subspan(offset, length);
 }
 
 Result<std::vector<double>> numbersOf(const GltfFile& file, const std::string& extension,
@@ -191,24 +195,8 @@ Result<std::vector<std::uint8_t>> imageBytes(const GltfFile& file, int index) {
     WEFT_TRY(const std::span<const std::uint8_t> bytes, viewBytes(file, image.bufferView));
     return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
   }
-  if (!image.image.empty()) return image.image;
   if (image.uri.empty()) return file.fail("image " + std::to_string(index) + " is empty");
-  return readFileBytes(resolve(file, image.uri), kLargestImageFile);
-}
-
-std::filesystem::path resolve(const GltfFile& file, const std::string& uri) {
-  std::string decoded;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned char code = 0;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(uri.data() + i + 1, uri.data() + i + 3, code, 16).ptr == uri.data() + i + 3) {
-      decoded.push_back(static_cast<char>(code));
-      i += 2;
-    } else {
-      decoded.push_back(uri[i]);
-    }
-  }
-  return file.folder() / decoded;
+  return readUri(file.path, image.uri, kLargestImageFile);
 }
 
 }  // namespace weft

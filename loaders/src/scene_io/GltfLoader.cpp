@@ -3,17 +3,18 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "GltfAccessor.h"
 #include "GltfFile.h"
+#include "GltfInstances.h"
+#include "GltfLights.h"
 #include "GltfMaterials.h"
 #include "GltfMesh.h"
 #include "GltfPose.h"
+#include "weft/core/PrintableText.h"
 #include "weft/scenegraph/Geometry.h"
-#include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/MaterialGroup.h"
 #include "weft/scenegraph/Transform.h"
 
@@ -21,8 +22,7 @@ namespace weft {
 namespace {
 
 constexpr int kDeepestNode = 1000;
-constexpr std::size_t kMostVertices = 100'000'000;
-constexpr const char* kLightExtension = "KHR_lights_punctual";
+constexpr std::size_t kNodeMemory = 256;  // with its core, and what drawing it takes
 
 /// A node of the file that is still to be read.
 struct Visit {
@@ -98,9 +98,10 @@ class SceneReader {
     for (const int index : order_) WEFT_TRY_VOID(addContents(index));
     scene_.materials = materials_.names();
     scene_.bounds = boundsOf(*scene_.root);
-    if (scene_.bounds.empty()) return file_.fail("the scene draws nothing", file_.warning);
+    if (scene_.bounds.empty()) return file_.fail("the scene draws nothing");
     if (!std::isfinite(scene_.bounds.radius())) return file_.fail("the scene is too large");
     setFarPlanes();
+    for (std::string& warning : scene_.warnings) warning = printable(warning);
     scene_.data = file_.contents.data;
     WEFT_TRY_VOID(callExtensions());
     return std::move(scene_);
@@ -110,7 +111,7 @@ class SceneReader {
   void warn(std::string warning) { scene_.warnings.push_back(std::move(warning)); }
 
   void warnOfTheFile() {
-    if (!file_.warning.empty()) warn("not all of the file is valid glTF: " + file_.warning);
+    scene_.warnings = file_.warnings;
     for (const std::string& extension : file_.model.extensionsUsed)
       if (!isKnownExtension(extension) && !options_.extensions.contains(extension))
         warn("what " + extension + " says is not shown");
@@ -158,33 +159,43 @@ class SceneReader {
     return {};
   }
 
-  Result<void> addMesh(int index, const tinygltf::Node& node, Node& placed) {
-    if (static_cast<std::size_t>(node.mesh) >= file_.model.meshes.size())
-      return file_.fail("mesh " + std::to_string(node.mesh) + " does not exist");
-    const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(node.mesh)];
-    MeshPose pose{.morphWeights = pose_.morphWeights(index)};
-    if (node.skin >= 0) {
-      WEFT_TRY(pose.joints, jointsOf(node.skin));
-      // A skin places its vertices in the world; glTF says not to heed where the node stands.
-      WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
-      addPrimitives(primitives, *scene_.root);
-    } else if (pose_.hasOwnWeights(index)) {
-      WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
-      addPrimitives(primitives, placed);
-    } else {
-      if (!meshes_.contains(node.mesh)) {
-        WEFT_TRY(meshes_[node.mesh], readPrimitives(mesh, pose));
-      }
-      addPrimitives(meshes_[node.mesh], placed);
-    }
-    return {};
-  }
-
   /// Cores that all nodes with the same mesh share.
   struct Primitive {
     std::shared_ptr<const MaterialGroup> material;
     std::shared_ptr<const Geometry> geometry;
   };
+
+  Result<void> addMesh(int index, const tinygltf::Node& node, Node& placed) {
+    if (static_cast<std::size_t>(node.mesh) >= file_.model.meshes.size())
+      return file_.fail("mesh " + std::to_string(node.mesh) + " does not exist");
+    const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(node.mesh)];
+    MeshPose pose{.morphWeights = pose_.morphWeights(index)};
+    const auto instancing = node.extensions.find(kInstancingExtension);
+    if (node.skin >= 0) {
+      WEFT_TRY(pose.joints, jointsOf(node.skin));
+      // A skin places its vertices in the world; glTF says not to heed where the node stands.
+      WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
+      addPrimitives(primitives, *scene_.root);
+      if (instancing != node.extensions.end()) warn("a mesh with a skin is shown without its instances");
+      return {};
+    }
+    WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
+    if (instancing == node.extensions.end()) {
+      addPrimitives(primitives, placed);
+      return {};
+    }
+    return addInstances(instancing->second, primitives, placed);
+  }
+
+  Result<void> addInstances(const tinygltf::Value& extension, const std::vector<Primitive>& primitives,
+                            Node& placed) {
+    WEFT_TRY(const std::vector<glm::mat4> instances, instancesOf(file_, extension));
+    taken_ += instances.size() * (1 + 2 * primitives.size()) * kNodeMemory;
+    WEFT_TRY_VOID(file_.checkMemory(taken_, "the meshes and their instances"));
+    for (const glm::mat4& instance : instances)
+      addPrimitives(primitives, *placed.addChild(std::make_shared<Transform>(instance)));
+    return {};
+  }
 
   static void addPrimitives(const std::vector<Primitive>& primitives, Node& parent) {
     for (const Primitive& primitive : primitives)
@@ -196,13 +207,23 @@ class SceneReader {
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (!primitive.attributes.contains("POSITION")) continue;  // glTF: it is not drawn
       WEFT_TRY(const MeshDress dress, materials_.get(primitive.material, shadingOf(primitive)));
-      WEFT_TRY(std::shared_ptr<const Mesh> read, readMesh(file_, primitive, dress, pose, scene_.warnings));
-      vertices_ += read->positions.size() + read->indices.size();
-      if (vertices_ > kMostVertices) return file_.fail("the scene has too many vertices");
-      primitives.push_back(
-          {std::make_shared<MaterialGroup>(dress.material), std::make_shared<Geometry>(std::move(read))});
+      WEFT_TRY(std::shared_ptr<const Geometry> geometry, geometryOf(primitive, dress, pose));
+      primitives.push_back({std::make_shared<MaterialGroup>(dress.material), std::move(geometry)});
     }
     return primitives;
+  }
+
+  /// Shared by all primitives that become the same mesh, whatever their materials are.
+  Result<std::shared_ptr<const Geometry>> geometryOf(const tinygltf::Primitive& primitive,
+                                                     const MeshDress& dress, const MeshPose& pose) {
+    const std::string key = meshKey(primitive, dress, pose);
+    if (const auto found = geometries_.find(key); found != geometries_.end() && pose.joints.empty())
+      return found->second;
+    WEFT_TRY(std::shared_ptr<const Mesh> mesh,
+             readMesh(file_, primitive, dress, pose, taken_, scene_.warnings));
+    auto geometry = std::make_shared<const Geometry>(std::move(mesh));
+    if (pose.joints.empty()) geometries_[key] = geometry;
+    return geometry;
   }
 
   /// Vertex to world, for every joint of a skin.
@@ -241,41 +262,11 @@ class SceneReader {
   }
 
   Result<void> addLight(const tinygltf::Value& extension, Node& placed) {
-    const int index = extension.IsObject() && extension.Get("light").IsNumber()
-                          ? extension.Get("light").GetNumberAsInt()
-                          : -1;
-    if (index < 0 || static_cast<std::size_t>(index) >= file_.model.lights.size())
-      return file_.fail("a node names a light that does not exist");
-    const tinygltf::Light& light = file_.model.lights[static_cast<std::size_t>(index)];
-    glm::vec3 intensity(static_cast<float>(light.intensity));
-    if (light.color.size() == 3) intensity *= glm::vec3(light.color[0], light.color[1], light.color[2]);
-    const bool valid = (light.color.empty() || light.color.size() == 3) && intensity.x >= 0.0f &&
-                       intensity.y >= 0.0f && intensity.z >= 0.0f && std::isfinite(glm::length(intensity));
-    if (!valid) return file_.fail("light " + std::to_string(index) + " has a broken colour or intensity");
-    WEFT_TRY(std::shared_ptr<const NodeCore> core, lightFrom(index, light, intensity));
+    WEFT_TRY(std::shared_ptr<const NodeCore> core,
+             lightFrom(file_, extension.Get("light").GetNumberAsInt(), scene_.warnings));
     placed.addChild(std::move(core));
     ++scene_.lights;
     return {};
-  }
-
-  Result<std::shared_ptr<const NodeCore>> lightFrom(int index, const tinygltf::Light& light,
-                                                    glm::vec3 intensity) const {
-    if (light.type == "directional") return std::make_shared<const DirectionalLight>(intensity);
-    const auto range =
-        light.range > 0.0 ? static_cast<float>(light.range) : std::numeric_limits<float>::infinity();
-    if (light.type == "point") {
-      auto point = std::make_shared<PointLight>(intensity);
-      point->range = range;
-      return point;
-    }
-    const auto inner = static_cast<float>(light.spot.innerConeAngle);
-    const auto outer = static_cast<float>(light.spot.outerConeAngle);
-    if (light.type != "spot" || !(inner >= 0.0f && inner < outer && outer < 1.5708f))
-      return file_.fail("light " + std::to_string(index) +
-                        " is of no kind that glTF knows, or has a broken cone");
-    auto spot = std::make_shared<SpotLight>(intensity, inner, outer);
-    spot->range = range;
-    return spot;
   }
 
   /// A camera may leave its far plane out; then it sees the whole scene.
@@ -311,10 +302,10 @@ class SceneReader {
   const GltfOptions& options_;
   GltfScene scene_;
   GltfMaterials materials_;
-  std::map<int, Placed> placed_;  ///< by the file's number
-  std::vector<int> order_;        ///< of the nodes in the tree
-  std::map<int, std::vector<Primitive>> meshes_;
-  std::size_t vertices_ = 0;
+  std::map<int, Placed> placed_;                                       ///< by the file's number
+  std::vector<int> order_;                                             ///< of the nodes in the tree
+  std::map<std::string, std::shared_ptr<const Geometry>> geometries_;  ///< by meshKey()
+  std::size_t taken_ = 0;                                              ///< bytes of all of them
 };
 
 }  // namespace

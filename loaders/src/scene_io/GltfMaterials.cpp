@@ -1,60 +1,19 @@
 #include "GltfMaterials.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "GltfPbr.h"
+#include "GltfPlacement.h"
+#include "GltfReference.h"
 #include "weft/scene_io/BTFMaterialLoader.h"
 
 namespace weft {
 namespace {
 
 constexpr const char* kBtfExtension = "WEFT_materials_btf";
-constexpr const char* kPlacementExtension = "KHR_texture_transform";
 
 std::string quoted(const tinygltf::Material& material) {
   return "material \"" + material.name + "\"";
-}
-
-/// Says what the missing or broken file is for.
-tl::unexpected<Error> becauseOf(Error error, const GltfFile& file, const std::string& use) {
-  const std::string hint = "it is the " + use + " of " + file.path.filename().string();
-  error.hint = error.hint.empty() ? hint : hint + "; " + error.hint;
-  return tl::unexpected<Error>(std::move(error));
-}
-
-glm::vec2 vec2From(const std::vector<double>& numbers) {
-  return {numbers[0], numbers[1]};
-}
-
-float unit(double factor) {
-  return static_cast<float>(std::clamp(factor, 0.0, 1.0));
-}
-
-/// A set of texture coordinates; those of a file are numbered from 0.
-Result<int> setFrom(const GltfFile& file, double number) {
-  if (!(number >= 0.0 && number < 1000.0)) return file.fail("there is no such set of texture coordinates");
-  return static_cast<int>(number);
-}
-
-/// How a texture with these extensions lies, `set` where they do not say another.
-Result<TexturePlacement> placementFrom(const GltfFile& file, const tinygltf::ExtensionMap& extensions,
-                                       int set) {
-  TexturePlacement placement;
-  WEFT_TRY(placement.set, setFrom(file, set));
-  const auto found = extensions.find(kPlacementExtension);
-  if (found == extensions.end()) return placement;
-  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
-    return numbersOf(file, kPlacementExtension, found->second, key, otherwise);
-  };
-  WEFT_TRY(const std::vector<double> scale, numbers("scale", {1.0, 1.0}));
-  WEFT_TRY(const std::vector<double> rotation, numbers("rotation", {0.0}));
-  WEFT_TRY(const std::vector<double> offset, numbers("offset", {0.0, 0.0}));
-  WEFT_TRY(const std::vector<double> texCoord, numbers("texCoord", {double(placement.set)}));
-  placement.scale = vec2From(scale);
-  placement.rotation = static_cast<float>(rotation[0]);
-  placement.offset = vec2From(offset);
-  WEFT_TRY(placement.set, setFrom(file, texCoord[0]));
-  return placement;
 }
 
 /// The set that the file's tangents belong to: the normal texture's.
@@ -66,7 +25,7 @@ Result<int> tangentSetOf(const GltfFile& file, const tinygltf::Material& materia
 
 Result<glm::vec2> btfScale(const GltfFile& file, const tinygltf::Value& extension) {
   WEFT_TRY(const std::vector<double> scale, numbersOf(file, kBtfExtension, extension, "scale", {1.0, 1.0}));
-  const glm::vec2 value = vec2From(scale);
+  const glm::vec2 value(scale[0], scale[1]);
   // A negative one would mirror the image, but not the directions that its relief was measured in.
   if (!(value.x > 0.0f && value.y > 0.0f))
     return file.fail(std::string("the scale of ") + kBtfExtension + " is not positive");
@@ -110,38 +69,39 @@ Result<MeshDress> GltfMaterials::make(int index, const tinygltf::Material& mater
     WEFT_TRY(std::shared_ptr<const Material> made, options_.makeMaterial(source));
     if (made) return MeshDress{.material = std::move(made), .usesTexcoords = true};
   }
-  return material.extensions.contains(kBtfExtension) ? makeBtf(material) : makePbr(material, shading);
+  return material.extensions.contains(kBtfExtension) ? makeBtf(material, shading)
+                                                     : makePbr(material, shading);
 }
 
-Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material) {
+Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Shading shading) {
   const tinygltf::Value& extension = material.extensions.at(kBtfExtension);
-  if (!extension.IsObject() || !extension.Get("uri").IsString())
-    return file_.fail(quoted(material) + " has " + kBtfExtension + " without a uri");
   WEFT_TRY(const glm::vec2 scale, btfScale(file_, extension));
   WEFT_TRY(const std::vector<double> set, numbersOf(file_, kBtfExtension, extension, "texCoord", {0.0}));
   MeshDress dress{.usesTexcoords = true};
-  tinygltf::ExtensionMap nested;
-  if (extension.Get("extensions").IsObject() && extension.Get("extensions").Has(kPlacementExtension))
-    nested[kPlacementExtension] = extension.Get("extensions").Get(kPlacementExtension);
-  WEFT_TRY(const int plainSet, setFrom(file_, set[0]));
-  WEFT_TRY(dress.placement, placementFrom(file_, nested, plainSet));
+  WEFT_TRY(const int plainSet, texcoordSetFrom(file_, set[0]));
+  WEFT_TRY(dress.placement, placementFrom(file_, placementExtensionsOf(extension), plainSet));
   dress.sets = {dress.placement.set, dress.placement.set == 0 ? 1 : 0};
   BTFMaterialOptions options = options_.btf;
   options.textureScale *= scale;
   options.doubleSided |= material.doubleSided;
-  auto made = loadBTFMaterial(resolve(file_, extension.Get("uri").Get<std::string>()), options);
-  if (!made) return becauseOf(std::move(made).error(), file_, "reflectance field of " + quoted(material));
+  auto made = loadField(extension.Get("uri").Get<std::string>(), options);
+  if (!made) {
+    warnings_.push_back("the reflectance field of " + quoted(material) +
+                        " is left out, its own maps take its place: " + made.error().message());
+    return makePbr(material, shading);
+  }
   dress.material = std::move(*made);
   return dress;
 }
 
+Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const std::string& uri,
+                                                              const BTFMaterialOptions& options) const {
+  WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, uri));
+  return loadBTFMaterial(path, options);
+}
+
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {
-  PBROptions options;
-  WEFT_TRY_VOID(readFactors(material, options));
-  WEFT_TRY_VOID(readAlpha(material, options));
-  WEFT_TRY_VOID(readTextures(material, options));
-  WEFT_TRY_VOID(readExtensions(material, options));
-  options.doubleSided = material.doubleSided;
+  WEFT_TRY(PBROptions options, GltfPbr(file_, textures_, warnings_).read(material));
   if (shading != Shading::Full) options.normalTexture = {};
   if (shading == Shading::Unlit) options.unlit = true;
 
@@ -150,7 +110,8 @@ Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Sha
   std::vector<int> sets;
   for (PBRTexture* texture :
        {&options.normalTexture, &options.baseColorTexture, &options.metallicRoughnessTexture,
-        &options.emissionTexture, &options.occlusionTexture}) {
+        &options.emissionTexture, &options.occlusionTexture, &options.specularTexture,
+        &options.specularColorTexture}) {
     if (!texture->image) continue;
     int& set = texture->placement.set;
     auto found = std::find(sets.begin(), sets.end(), set);
@@ -166,98 +127,6 @@ Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Sha
   if (!sets.empty()) dress.sets = {sets[0], sets.size() > 1 ? sets[1] : sets[0] == 0 ? 1 : 0};
   dress.material = std::make_shared<const PBRMaterial>(options);
   return dress;
-}
-
-Result<void> GltfMaterials::readFactors(const tinygltf::Material& material, PBROptions& options) const {
-  const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
-  const auto finite = [](const std::vector<double>& numbers) {
-    return std::all_of(numbers.begin(), numbers.end(),
-                       [](double number) { return std::isfinite(static_cast<float>(number)); });
-  };
-  const std::vector<double>& color = pbr.baseColorFactor;
-  if (color.size() != 4 || !finite(color))
-    return file_.fail("the baseColorFactor of " + quoted(material) + " is not four numbers");
-  // The default material's is empty.
-  const std::vector<double> emission =
-      material.emissiveFactor.empty() ? std::vector<double>(3) : material.emissiveFactor;
-  if (emission.size() != 3 || !finite(emission) ||
-      !finite({pbr.metallicFactor, pbr.roughnessFactor, material.normalTexture.scale,
-               material.occlusionTexture.strength, material.alphaCutoff}))
-    return file_.fail("a factor of " + quoted(material) + " is not finite");
-  options.baseColor = {unit(color[0]), unit(color[1]), unit(color[2]), unit(color[3])};
-  options.metallic = unit(pbr.metallicFactor);
-  options.roughness = unit(pbr.roughnessFactor);
-  options.emission = {unit(emission[0]), unit(emission[1]), unit(emission[2])};
-  options.normalScale = static_cast<float>(material.normalTexture.scale);
-  options.occlusionStrength = unit(material.occlusionTexture.strength);
-  return {};
-}
-
-Result<void> GltfMaterials::readAlpha(const tinygltf::Material& material, PBROptions& options) const {
-  if (material.alphaMode == "MASK")
-    options.alphaMode = AlphaMode::Mask;
-  else if (material.alphaMode == "BLEND")
-    options.alphaMode = AlphaMode::Blend;
-  else if (material.alphaMode != "OPAQUE")
-    return file_.fail(quoted(material) + " has an alphaMode that glTF does not know: " + material.alphaMode);
-  options.alphaCutoff = static_cast<float>(material.alphaCutoff);
-  return {};
-}
-
-Result<void> GltfMaterials::readTextures(const tinygltf::Material& material, PBROptions& options) {
-  const std::string of = " of " + quoted(material);
-  const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
-  WEFT_TRY(options.baseColorTexture, texture(pbr.baseColorTexture, true, "base colour" + of));
-  WEFT_TRY(options.metallicRoughnessTexture,
-           texture(pbr.metallicRoughnessTexture, false, "metallic-roughness texture" + of));
-  WEFT_TRY(options.normalTexture, texture(material.normalTexture, false, "normal texture" + of));
-  WEFT_TRY(options.occlusionTexture, texture(material.occlusionTexture, false, "occlusion texture" + of));
-  WEFT_TRY(options.emissionTexture, texture(material.emissiveTexture, true, "emissive texture" + of));
-  // The factors of a texture that is not there mean nothing: most things are no metal, and do not glow.
-  if (pbr.metallicRoughnessTexture.index >= 0 && !options.metallicRoughnessTexture.image)
-    options.metallic = 0.0f;
-  if (material.emissiveTexture.index >= 0 && !options.emissionTexture.image) options.emission = glm::vec3(0);
-  return {};
-}
-
-Result<void> GltfMaterials::readExtensions(const tinygltf::Material& material, PBROptions& options) {
-  const auto number = [&](const char* extension, const char* key, double otherwise) -> Result<double> {
-    const auto found = material.extensions.find(extension);
-    if (found == material.extensions.end()) return otherwise;
-    WEFT_TRY(const std::vector<double> numbers, numbersOf(file_, extension, found->second, key, {otherwise}));
-    return numbers[0];
-  };
-  WEFT_TRY(const double strength, number("KHR_materials_emissive_strength", "emissiveStrength", 1.0));
-  WEFT_TRY(const double ior, number("KHR_materials_ior", "ior", 1.5));
-  WEFT_TRY(const double specular, number("KHR_materials_specular", "specularFactor", 1.0));
-  options.emission *= static_cast<float>(std::max(strength, 0.0));
-  // 0 stands for an infinite one, which mirrors everything.
-  options.refractiveIndex = ior == 0.0 ? 1e6f : static_cast<float>(std::max(ior, 1.0));
-  options.specular = unit(specular);
-  if (const auto found = material.extensions.find("KHR_materials_specular");
-      found != material.extensions.end()) {
-    WEFT_TRY(const std::vector<double> color,
-             numbersOf(file_, found->first, found->second, "specularColorFactor", {1.0, 1.0, 1.0}));
-    for (int channel = 0; channel < 3; ++channel)
-      options.specularColor[channel] =
-          static_cast<float>(std::max(color[static_cast<std::size_t>(channel)], 0.0));
-    if (found->second.Has("specularTexture") || found->second.Has("specularColorTexture"))
-      warnings_.push_back(quoted(material) + " is shown without the textures of KHR_materials_specular");
-  }
-  if (material.extensions.contains("KHR_materials_unlit")) {
-    options.unlit = true;
-    options.emission = glm::vec3(0.0f);
-  }
-  return {};
-}
-
-template <class Info>
-Result<PBRTexture> GltfMaterials::texture(const Info& info, bool srgb, const std::string& use) {
-  if (info.index < 0) return PBRTexture{};
-  PBRTexture made;
-  WEFT_TRY(made.placement, placementFrom(file_, info.extensions, info.texCoord));
-  WEFT_TRY(made.image, textures_.get(info.index, srgb, use));
-  return made;
 }
 
 }  // namespace weft

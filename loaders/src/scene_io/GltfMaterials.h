@@ -40,16 +40,11 @@ class GltfMaterials {
 
  private:
   Result<MeshDress> make(int index, const tinygltf::Material& material, Shading shading);
-  Result<MeshDress> makeBtf(const tinygltf::Material& material);
+  /// Where the reflectance field is missing or broken, of the material's own maps, with a warning.
+  Result<MeshDress> makeBtf(const tinygltf::Material& material, Shading shading);
+  Result<std::shared_ptr<BTFMaterial>> loadField(const std::string& uri,
+                                                 const BTFMaterialOptions& options) const;
   Result<MeshDress> makePbr(const tinygltf::Material& material, Shading shading);
-
-  Result<void> readFactors(const tinygltf::Material& material, PBROptions& options) const;
-  Result<void> readAlpha(const tinygltf::Material& material, PBROptions& options) const;
-  Result<void> readExtensions(const tinygltf::Material& material, PBROptions& options);
-  Result<void> readTextures(const tinygltf::Material& material, PBROptions& options);
-  /// `info`: any of tinygltf's kinds.
-  template <class Info>
-  Result<PBRTexture> texture(const Info& info, bool srgb, const std::string& use);
 
   const GltfFile& file_;
   const GltfOptions& options_;

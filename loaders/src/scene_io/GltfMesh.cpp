@@ -1,5 +1,8 @@
 #include "GltfMesh.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -13,26 +16,35 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
+/// The vertices of a primitive: how many its attributes have, and which of them its indices use, where those
+/// are not all. Many primitives may share one long list.
+struct Vertices {
+  std::size_t listed = 0;
+  ElementChoice used{};
+
+  std::size_t count() const { return used ? used->size() : listed; }
+};
+
 /// Vectors of an attribute; empty where the primitive does not have it, otherwise one a vertex.
 template <class Vector>
 Result<std::vector<Vector>> readAttribute(const GltfFile& file, const Attributes& attributes,
-                                          const std::string& name, std::size_t vertexCount) {
+                                          const std::string& name, const Vertices& vertices) {
   const auto found = attributes.find(name);
   if (found == attributes.end()) return std::vector<Vector>();
-  WEFT_TRY(std::vector<Vector> vectors, readVectors<Vector>(file, found->second));
-  if (vectors.size() != vertexCount) return file.fail("the attributes of a mesh differ in length");
-  return vectors;
+  WEFT_TRY(const std::size_t listed, countOf(file, found->second));
+  if (listed != vertices.listed) return file.fail("the attributes of a mesh differ in length");
+  return readVectors<Vector>(file, found->second, vertices.used);
 }
 
 /// Vertex colours may lack their alpha.
 Result<std::vector<glm::vec4>> readColors(const GltfFile& file, const Attributes& attributes,
-                                          std::size_t vertexCount) {
+                                          const Vertices& vertices) {
   const auto found = attributes.find("COLOR_0");
   if (found == attributes.end()) return std::vector<glm::vec4>();
   WEFT_TRY(const std::size_t components, componentsOf(file, found->second));
-  if (components == 4) return readAttribute<glm::vec4>(file, attributes, "COLOR_0", vertexCount);
+  if (components == 4) return readAttribute<glm::vec4>(file, attributes, "COLOR_0", vertices);
   WEFT_TRY(const std::vector<glm::vec3> opaque,
-           readAttribute<glm::vec3>(file, attributes, "COLOR_0", vertexCount));
+           readAttribute<glm::vec3>(file, attributes, "COLOR_0", vertices));
   std::vector<glm::vec4> colors;
   for (const glm::vec3 color : opaque) colors.emplace_back(color, 1.0f);
   return colors;
@@ -41,11 +53,12 @@ Result<std::vector<glm::vec4>> readColors(const GltfFile& file, const Attributes
 /// Adds the weighted differences of the morph targets.
 template <class Vector>
 Result<void> morph(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
-                   const std::vector<float>& weights, std::vector<Vector>& attribute) {
+                   const std::vector<float>& weights, const Vertices& vertices,
+                   std::vector<Vector>& attribute) {
   for (std::size_t target = 0; target < std::min(weights.size(), primitive.targets.size()); ++target) {
     if (weights[target] == 0.0f || attribute.empty()) continue;
     WEFT_TRY(const std::vector<glm::vec3> differences,
-             readAttribute<glm::vec3>(file, primitive.targets[target], name, attribute.size()));
+             readAttribute<glm::vec3>(file, primitive.targets[target], name, vertices));
     for (std::size_t i = 0; i < differences.size(); ++i)
       for (int k = 0; k < 3; ++k) attribute[i][k] += weights[target] * differences[i][k];
   }
@@ -54,15 +67,16 @@ Result<void> morph(const GltfFile& file, const tinygltf::Primitive& primitive, c
 
 /// For every vertex the mean of its joints' matrices.
 Result<std::vector<glm::mat4>> skinMatrices(const GltfFile& file, const Attributes& attributes,
-                                            const std::vector<glm::mat4>& joints, std::size_t vertexCount) {
+                                            const std::vector<glm::mat4>& joints, const Vertices& vertices) {
+  const std::size_t vertexCount = vertices.count();
   std::vector<glm::mat4> sums(vertexCount, glm::mat4(0.0f));
   std::vector<float> total(vertexCount, 0.0f);
   for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {
     const std::string number = std::to_string(set);
     WEFT_TRY(const std::vector<glm::vec4> indices,
-             readAttribute<glm::vec4>(file, attributes, "JOINTS_" + number, vertexCount));
+             readAttribute<glm::vec4>(file, attributes, "JOINTS_" + number, vertices));
     WEFT_TRY(const std::vector<glm::vec4> weights,
-             readAttribute<glm::vec4>(file, attributes, "WEIGHTS_" + number, vertexCount));
+             readAttribute<glm::vec4>(file, attributes, "WEIGHTS_" + number, vertices));
     if (weights.empty()) return file.fail("a mesh has joints without weights");
     for (std::size_t i = 0; i < vertexCount; ++i)
       for (int k = 0; k < 4; ++k) {
@@ -151,16 +165,48 @@ Result<IndexList> asList(const GltfFile& file, int mode, const std::vector<std::
 
 Result<IndexList> readIndexList(const GltfFile& file, const tinygltf::Primitive& primitive,
                                 std::size_t vertexCount) {
-  std::vector<std::uint32_t> indices(vertexCount);
-  std::iota(indices.begin(), indices.end(), 0u);
+  std::vector<std::uint32_t> indices;
   if (primitive.indices >= 0) {
     WEFT_TRY(indices, readIndices(file, primitive.indices));
+  } else {
+    WEFT_TRY_VOID(file.checkMemory(vertexCount * sizeof(std::uint32_t), "a mesh"));
+    indices.resize(vertexCount);
+    std::iota(indices.begin(), indices.end(), 0u);
   }
   for (const std::uint32_t index : indices)
     if (index >= vertexCount)
       return file.fail("a mesh has index " + std::to_string(index) + ", but only " +
                        std::to_string(vertexCount) + " vertices");
   return asList(file, primitive.mode, indices);
+}
+
+/// Leaves out the vertices that no index names, and numbers the others anew, in their order.
+Result<ElementChoice> chooseUsed(const GltfFile& file, std::vector<std::uint32_t>& indices,
+                                 std::size_t vertexCount) {
+  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
+  const std::uint32_t offset = *first;
+  const std::size_t span = std::size_t{*last} - offset + 1;
+  WEFT_TRY_VOID(file.checkMemory(span * sizeof(std::uint32_t), "a mesh"));
+  std::vector<std::uint32_t> numbers(span, 0);  // 0: unused
+  for (const std::uint32_t index : indices) numbers[index - offset] = 1;
+  std::vector<std::uint32_t> used;
+  for (std::uint32_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] != 0) {
+      numbers[i] = static_cast<std::uint32_t>(used.size());
+      used.push_back(i + offset);
+    }
+  if (used.size() == vertexCount) return ElementChoice();
+  for (std::uint32_t& index : indices) index = numbers[index - offset];
+  return ElementChoice(std::move(used));
+}
+
+/// What a mesh will take at most, normals and tangents that are generated included.
+std::size_t memoryOf(const tinygltf::Primitive& primitive, const IndexList& list, const Vertices& vertices) {
+  const bool isFlat = list.topology == Topology::Triangles && !primitive.attributes.contains("NORMAL");
+  std::size_t each = sizeof(glm::vec3) * 2 + sizeof(glm::vec4) + sizeof(glm::vec2) * 2;
+  if (primitive.attributes.contains("COLOR_0")) each += sizeof(glm::vec4);
+  return (isFlat ? list.indices.size() : vertices.count()) * each +
+         list.indices.size() * sizeof(std::uint32_t);
 }
 
 /// Unit normals; one without length, which glTF forbids, becomes +Z.
@@ -200,14 +246,13 @@ bool isFinite(const std::vector<glm::vec3>& positions) {
 }
 
 Result<void> readTexcoords(const GltfFile& file, const tinygltf::Primitive& primitive, const MeshDress& dress,
-                           std::vector<std::string>& warnings, Mesh& mesh) {
+                           const Vertices& vertices, std::vector<std::string>& warnings, Mesh& mesh) {
   const auto nameOf = [&](std::size_t which) { return "TEXCOORD_" + std::to_string(dress.sets[which]); };
-  const std::size_t count = mesh.positions.size();
-  WEFT_TRY(mesh.texcoords, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(0), count));
-  WEFT_TRY(mesh.texcoords1, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(1), count));
+  WEFT_TRY(mesh.texcoords, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(0), vertices));
+  WEFT_TRY(mesh.texcoords1, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(1), vertices));
   if (mesh.texcoords.empty() && dress.usesTexcoords)
     warnings.push_back("a mesh has no " + nameOf(0) + ": it shows a single texel");
-  mesh.texcoords.resize(count, glm::vec2(0));
+  mesh.texcoords.resize(vertices.count(), glm::vec2(0));
   return {};
 }
 
@@ -235,29 +280,52 @@ Shading shadingOf(const tinygltf::Primitive& primitive) {
   return primitive.attributes.contains("TANGENT") ? Shading::Full : Shading::WithoutNormalTexture;
 }
 
+std::string meshKey(const tinygltf::Primitive& primitive, const MeshDress& dress, const MeshPose& pose) {
+  const TexturePlacement& placement = dress.placement;
+  std::string key =
+      fmt::format("{} {} | {} {} {} | {} {} {} {} {} |", primitive.mode, primitive.indices, dress.sets[0],
+                  dress.sets[1], dress.tangentSet, placement.scale.x, placement.scale.y, placement.rotation,
+                  placement.offset.x, placement.offset.y);
+  const auto append = [&](const Attributes& attributes) {
+    for (const auto& [name, accessor] : attributes) key += fmt::format(" {} {}", name, accessor);
+  };
+  append(primitive.attributes);
+  for (std::size_t i = 0; i < std::min(pose.morphWeights.size(), primitive.targets.size()); ++i) {
+    if (pose.morphWeights[i] == 0.0f) continue;
+    key += fmt::format(" | {}", pose.morphWeights[i]);
+    append(primitive.targets[i]);
+  }
+  return key;
+}
+
 Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive,
-                                             const MeshDress& dress, const MeshPose& pose,
+                                             const MeshDress& dress, const MeshPose& pose, std::size_t& taken,
                                              std::vector<std::string>& warnings) {
   const Attributes& attributes = primitive.attributes;
+  Vertices vertices;
+  WEFT_TRY(vertices.listed, countOf(file, attributes.at("POSITION")));
+  WEFT_TRY(IndexList list, readIndexList(file, primitive, vertices.listed));
+  WEFT_TRY(vertices.used, chooseUsed(file, list.indices, vertices.listed));
+  taken += memoryOf(primitive, list, vertices);
+  WEFT_TRY_VOID(file.checkMemory(taken, "the meshes"));
+
   Mesh mesh;
-  WEFT_TRY(mesh.positions, readVectors<glm::vec3>(file, attributes.at("POSITION")));
-  const std::size_t count = mesh.positions.size();
-  WEFT_TRY(mesh.normals, readAttribute<glm::vec3>(file, attributes, "NORMAL", count));
-  // glTF: without normals, tangents mean nothing.
-  if (!mesh.normals.empty() && dress.sets[0] == dress.tangentSet) {
-    WEFT_TRY(mesh.tangents, readAttribute<glm::vec4>(file, attributes, "TANGENT", count));
-  }
-  WEFT_TRY_VOID(readTexcoords(file, primitive, dress, warnings, mesh));
-  WEFT_TRY(mesh.colors, readColors(file, attributes, count));
-  WEFT_TRY(IndexList list, readIndexList(file, primitive, count));
   mesh.topology = list.topology;
   mesh.indices = std::move(list.indices);
+  WEFT_TRY(mesh.positions, readAttribute<glm::vec3>(file, attributes, "POSITION", vertices));
+  WEFT_TRY(mesh.normals, readAttribute<glm::vec3>(file, attributes, "NORMAL", vertices));
+  // glTF: without normals, tangents mean nothing.
+  if (!mesh.normals.empty() && dress.sets[0] == dress.tangentSet) {
+    WEFT_TRY(mesh.tangents, readAttribute<glm::vec4>(file, attributes, "TANGENT", vertices));
+  }
+  WEFT_TRY_VOID(readTexcoords(file, primitive, dress, vertices, warnings, mesh));
+  WEFT_TRY(mesh.colors, readColors(file, attributes, vertices));
 
-  WEFT_TRY_VOID(morph(file, primitive, "POSITION", pose.morphWeights, mesh.positions));
-  WEFT_TRY_VOID(morph(file, primitive, "NORMAL", pose.morphWeights, mesh.normals));
-  WEFT_TRY_VOID(morph(file, primitive, "TANGENT", pose.morphWeights, mesh.tangents));
+  WEFT_TRY_VOID(morph(file, primitive, "POSITION", pose.morphWeights, vertices, mesh.positions));
+  WEFT_TRY_VOID(morph(file, primitive, "NORMAL", pose.morphWeights, vertices, mesh.normals));
+  WEFT_TRY_VOID(morph(file, primitive, "TANGENT", pose.morphWeights, vertices, mesh.tangents));
   if (!pose.joints.empty() && attributes.contains("JOINTS_0")) {
-    WEFT_TRY(const std::vector<glm::mat4> matrices, skinMatrices(file, attributes, pose.joints, count));
+    WEFT_TRY(const std::vector<glm::mat4> matrices, skinMatrices(file, attributes, pose.joints, vertices));
     skin(mesh, matrices);
   }
   if (!isFinite(mesh.positions)) return file.fail("the pose of a mesh is not finite");

@@ -184,12 +184,6 @@ Result<glm::mat4> GltfPose::matrix(int index) const {
   return rounded;
 }
 
-bool GltfPose::hasOwnWeights(int node) const {
-  const auto found = sampled_.find(node);
-  return (found != sampled_.end() && !found->second.weights.empty()) ||
-         !file_->model.nodes[static_cast<std::size_t>(node)].weights.empty();
-}
-
 std::vector<float> GltfPose::morphWeights(int index) const {
   if (const auto found = sampled_.find(index); found != sampled_.end() && !found->second.weights.empty())
     return found->second.weights;

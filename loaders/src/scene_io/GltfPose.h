@@ -22,8 +22,6 @@ class GltfPose {
   Result<glm::mat4> matrix(int node) const;
   /// One weight a morph target of the node's mesh; may be too few, the others are 0.
   std::vector<float> morphWeights(int node) const;
-  /// Whether the node's mesh is morphed otherwise than the mesh itself says.
-  bool hasOwnWeights(int node) const;
 
  private:
   /// What an animation says instead of the node.

@@ -1,5 +1,10 @@
 #include "GltfTextures.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "GltfReference.h"
 #include "weft/io/ImageFile.h"
 
 namespace weft {
@@ -12,11 +17,9 @@ TextureWrap wrapOf(int wrap) {
 
 /// glTF leaves the filters to the program where the file names none; of the four kinds of mipmaps Weft has
 /// the best.
-TextureOptions optionsOf(const tinygltf::Sampler& sampler, bool srgb) {
-  TextureOptions options{.filter = TextureFilter::Mipmapped,
-                         .wrap = wrapOf(sampler.wrapS),
-                         .wrapV = wrapOf(sampler.wrapT),
-                         .srgb = srgb};
+TextureOptions optionsOf(const tinygltf::Sampler& sampler) {
+  TextureOptions options{
+      .filter = TextureFilter::Mipmapped, .wrap = wrapOf(sampler.wrapS), .wrapV = wrapOf(sampler.wrapT)};
   if (sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) options.filter = TextureFilter::Nearest;
   if (sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR) options.filter = TextureFilter::Linear;
   options.magnification =
@@ -24,12 +27,22 @@ TextureOptions optionsOf(const tinygltf::Sampler& sampler, bool srgb) {
   return options;
 }
 
+/// Two channels, the second of which is the roughness.
+Image roughnessFrom(const Image& image, float factor) {
+  Image roughness(image.width, image.height, 2);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < roughness.bytes.size() / 2; ++i) {
+    const float glossiness = factor * static_cast<float>(image.bytes[i * channels + channels - 1]);
+    roughness.bytes[2 * i + 1] = static_cast<std::uint8_t>(std::lround(255.0f - glossiness));
+  }
+  return roughness;
+}
+
 }  // namespace
 
-Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool srgb, const std::string& use) {
+Result<GltfTextures::Source> GltfTextures::sourceOf(int index, const std::string& use) {
   if (index < 0 || static_cast<std::size_t>(index) >= file_.model.textures.size())
     return file_.fail("texture " + std::to_string(index) + " does not exist");
-  if (const auto found = chunks_.find({index, srgb}); found != chunks_.end()) return found->second;
   const tinygltf::Texture& texture = file_.model.textures[static_cast<std::size_t>(index)];
   tinygltf::Sampler sampler;
   if (texture.sampler >= 0) {
@@ -37,32 +50,74 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool sr
       return file_.fail("sampler " + std::to_string(texture.sampler) + " does not exist");
     sampler = file_.model.samplers[static_cast<std::size_t>(texture.sampler)];
   }
-  WEFT_TRY(std::shared_ptr<const Image> pixels, image(texture.source, use));
+  WEFT_TRY(std::shared_ptr<const Image> pixels, image(texture.source, texture, use));
+  return Source{std::move(pixels), optionsOf(sampler)};
+}
+
+Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool srgb, const std::string& use) {
+  if (const auto found = chunks_.find({index, srgb}); found != chunks_.end()) return found->second;
+  WEFT_TRY(Source source, sourceOf(index, use));
+  source.options.srgb = srgb;
   std::shared_ptr<const TextureChunk> chunk;
-  if (pixels) chunk = std::make_shared<const TextureChunk>(std::move(pixels), optionsOf(sampler, srgb));
+  if (source.image) chunk = std::make_shared<const TextureChunk>(std::move(source.image), source.options);
   return chunks_[{index, srgb}] = std::move(chunk);
 }
 
-Result<std::shared_ptr<const Image>> GltfTextures::image(int index, const std::string& use) {
-  if (const auto found = images_.find(index); found != images_.end()) return found->second;
-  std::shared_ptr<const Image>& kept = images_[index];
+Result<std::shared_ptr<const TextureChunk>> GltfTextures::roughnessOf(int index, float factor,
+                                                                      const std::string& use) {
+  if (const auto found = roughness_.find({index, factor}); found != roughness_.end()) return found->second;
+  WEFT_TRY(const Source source, sourceOf(index, use));
+  std::shared_ptr<const TextureChunk>& chunk = roughness_[{index, factor}];
+  if (!source.image || source.image->channels % 2 != 0) return chunk;
+  convertedBytes_ += source.image->bytes.size();
+  // One image may be converted for any number of factors.
+  if (convertedBytes_ > decodedBytes_ + file_.memoryLimit) {
+    warnings_.push_back("the " + use + " is left out: it takes too much memory for a file of this size");
+    return chunk;
+  }
+  auto image = std::make_shared<const Image>(roughnessFrom(*source.image, factor));
+  return chunk = std::make_shared<const TextureChunk>(std::move(image), source.options);
+}
+
+Result<std::shared_ptr<const Image>> GltfTextures::image(int index, const tinygltf::Texture& texture,
+                                                         const std::string& use) {
+  if (const auto found = images_.find(index); index >= 0 && found != images_.end()) return found->second;
   if (index < 0) {
-    // KHR_texture_basisu and others have a source of their own.
-    warnings_.push_back("the " + use + " is left out: it has no image that Weft reads");
-    return kept;
+    std::string extensions;
+    for (const auto& [name, value] : texture.extensions)
+      extensions += (extensions.empty() ? ": " : ", ") + name;
+    warnings_.push_back("the " + use + " is left out: it has no image that Weft reads" + extensions);
+    return std::shared_ptr<const Image>();
   }
   if (static_cast<std::size_t>(index) >= file_.model.images.size())
     return file_.fail("image " + std::to_string(index) + " does not exist");
-  const std::string& uri = file_.model.images[static_cast<std::size_t>(index)].uri;
-  const auto decoded = [&]() -> Result<Image> {
+  std::shared_ptr<const Image>& kept = images_[index];
+  const auto decoded = [&]() -> Result<std::shared_ptr<const Image>> {
+    WEFT_TRY(const Origin origin, originOf(index));
+    std::shared_ptr<const Image>& known = decoded_[origin.key];
+    if (known) return known;
     WEFT_TRY(const std::vector<std::uint8_t> bytes, imageBytes(file_, index));
-    return decodeImage(bytes, uri.empty() ? file_.path.string() : resolve(file_, uri).string());
+    WEFT_TRY(Image pixels, decodeImage(bytes, origin.where));
+    decodedBytes_ += pixels.bytes.size();
+    return known = std::make_shared<const Image>(std::move(pixels));
   }();
   if (decoded)
-    kept = std::make_shared<const Image>(*decoded);
+    kept = *decoded;
   else
     warnings_.push_back("the " + use + " is left out: " + decoded.error().message());
   return kept;
+}
+
+Result<GltfTextures::Origin> GltfTextures::originOf(int index) const {
+  const tinygltf::Image& image = file_.model.images[static_cast<std::size_t>(index)];
+  const std::string number = std::to_string(index), embedded = file_.path.string() + ", image " + number;
+  if (image.bufferView >= 0) {
+    WEFT_TRY(const std::span<const std::uint8_t> bytes, viewBytes(file_, image.bufferView));
+    return Origin{fmt::format("{} {}", fmt::ptr(bytes.data()), bytes.size()), embedded};
+  }
+  if (isDataUri(image.uri)) return Origin{number, embedded + " (" + shownUri(image.uri) + ")"};
+  WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, image.uri));
+  return Origin{path.lexically_normal().string(), path.string()};
 }
 
 }  // namespace weft

@@ -18,14 +18,35 @@ class GltfTextures {
   /// Null, with one warning for all its uses, where the image is missing or broken; fails where the file's
   /// own references are. `use` is for people.
   Result<std::shared_ptr<const TextureChunk>> get(int texture, bool srgb, const std::string& use);
+  /// The roughness, in g, that a texture with a glossiness in its alpha says: 1 - `factor` * alpha. Null
+  /// where it has no alpha, and like get().
+  Result<std::shared_ptr<const TextureChunk>> roughnessOf(int texture, float factor, const std::string& use);
 
  private:
-  Result<std::shared_ptr<const Image>> image(int index, const std::string& use);
+  /// What a texture shows, and how.
+  struct Source {
+    std::shared_ptr<const Image> image;
+    TextureOptions options;
+  };
+
+  Result<Source> sourceOf(int texture, const std::string& use);
+  Result<std::shared_ptr<const Image>> image(int index, const tinygltf::Texture& texture,
+                                             const std::string& use);
+  /// Where the bytes of an image are.
+  struct Origin {
+    std::string key;    ///< equal for images that are the same bytes: a file may list one many times
+    std::string where;  ///< for people
+  };
+  Result<Origin> originOf(int image) const;
 
   const GltfFile& file_;
   std::vector<std::string>& warnings_;
   std::map<int, std::shared_ptr<const Image>> images_;
+  std::map<std::string, std::shared_ptr<const Image>> decoded_;  ///< by Origin::key
   std::map<std::pair<int, bool>, std::shared_ptr<const TextureChunk>> chunks_;
+  std::map<std::pair<int, float>, std::shared_ptr<const TextureChunk>> roughness_;
+  std::size_t decodedBytes_ = 0;
+  std::size_t convertedBytes_ = 0;
 };
 
 }  // namespace weft

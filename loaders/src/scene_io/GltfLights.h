@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "GltfFile.h"
+#include "weft/scenegraph/NodeCore.h"
+
+namespace weft {
+
+constexpr const char* kLightExtension = "KHR_lights_punctual";
+
+/// A light of the file.
+Result<std::shared_ptr<const NodeCore>> lightFrom(const GltfFile& file, int index,
+                                                  std::vector<std::string>& warnings);
+
+}  // namespace weft

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "GltfFile.h"
+#include "GltfTextures.h"
+#include "weft/materials/PBRMaterial.h"
+
+namespace weft {
+
+/// Reads what a material says in glTF's own terms and those of Khronos' extensions.
+class GltfPbr {
+ public:
+  /// All must outlive this.
+  GltfPbr(const GltfFile& file, GltfTextures& textures, std::vector<std::string>& warnings)
+      : file_(file), textures_(textures), warnings_(warnings) {}
+
+  /// The sets of texture coordinates of its textures are the file's.
+  Result<PBROptions> read(const tinygltf::Material& material);
+
+ private:
+  Result<void> readFactors(const tinygltf::Material& material, PBROptions& options) const;
+  Result<void> readAlpha(const tinygltf::Material& material, PBROptions& options) const;
+  Result<void> readTextures(const tinygltf::Material& material, PBROptions& options);
+  Result<void> readExtensions(const tinygltf::Material& material, PBROptions& options);
+  Result<void> readSpecular(const tinygltf::Value& extension, const std::string& of, PBROptions& options);
+  Result<void> readSpecularGlossiness(const tinygltf::Value& extension, const std::string& of,
+                                      PBROptions& options);
+  /// `info`: any of tinygltf's kinds.
+  template <class Info>
+  Result<PBRTexture> texture(const Info& info, bool srgb, const std::string& use);
+  /// A texture that is a member of an extension; without it nothing.
+  Result<PBRTexture> texture(const tinygltf::Value& extension, const char* key, bool srgb,
+                             const std::string& use);
+
+  const GltfFile& file_;
+  GltfTextures& textures_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace weft
