@@ -24,7 +24,8 @@ class WeftDrawable : public osg::Drawable {
  public:
   explicit WeftDrawable(std::shared_ptr<const weft::Node> scene) : scene_(std::move(scene)) {
     const weft::Bounds b = weft::boundsOf(*scene_);
-    setInitialBound({b.minimum.x, b.minimum.y, b.minimum.z, b.maximum.x, b.maximum.y, b.maximum.z});
+    const glm::vec3 low = b.minimum, high = b.maximum;
+    setInitialBound({low.x, low.y, low.z, high.x, high.y, high.z});
     setSupportsDisplayList(false);
   }
 

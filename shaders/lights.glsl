@@ -1,4 +1,5 @@
-// The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout).
+// The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout). Points and directions have
+// the world's axes; points are relative to the eye, since near it floats are finest. The place in the world: point + origin.xyz.
 
 // How many lights there are of both kinds is known when a program is compiled, which makes short loops over them fast.
 #ifndef DIRECTIONAL_LIGHTS
@@ -10,14 +11,15 @@ const int maximumLights = 16;
 const int lightCount = DIRECTIONAL_LIGHTS + PLACED_LIGHTS;
 
 struct Light {
-  vec4 place;      // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit; world space
+  vec4 place;      // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit
   vec4 intensity;  // rgb: candela for a position, lux for a direction; w: 1 / range^2
   vec4 cone;       // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot light gives
 };
 
 layout(std140, binding = 0) uniform Frame {
   mat4 viewProjection;
-  vec4 eye;  // Camera::eye(), world space
+  vec4 eye;     // (0, 0, 0, 1); of an orthographic view the unit direction towards the viewer, w = 0
+  vec4 origin;  // the eye's place in the world
   Light lights[maximumLights];
   vec4 environmentRows[3];    // xyz: from world space to the environment, where there is one
   vec4 environmentIntensity;  // rgb; w: what prefiltered values are multiplied by
@@ -35,12 +37,12 @@ const float specularPart = 0.0;
 const float specularPart = 1.0;
 #endif
 
-// The unit direction from a world-space point towards the eye.
+// The unit direction from a point towards the eye.
 vec3 toEye(vec3 point) {
   return normalize(eye.xyz - eye.w * point);
 }
 
-// Irradiance, on a surface that faces the light, at a world-space point; `toLight` becomes the unit direction towards it.
+// Irradiance, on a surface that faces the light, at a point; `toLight` becomes the unit direction towards it.
 vec3 lightAt(int index, vec3 point, out vec3 toLight) {
   if (index < DIRECTIONAL_LIGHTS) {
     toLight = lights[index].place.xyz;
@@ -48,7 +50,7 @@ vec3 lightAt(int index, vec3 point, out vec3 toLight) {
   }
   Light light = lights[index];
   vec3 offset = light.place.xyz - point;
-  float squared = max(dot(offset, offset), 1e-12);
+  float squared = max(dot(offset, offset), 1e-37);
   toLight = offset * inversesqrt(squared);
   float beyond = squared * light.intensity.w;
   float fade = clamp(1.0 - beyond * beyond, 0.0, 1.0);  // KHR_lights_punctual's

@@ -13,30 +13,30 @@ namespace {
 
 constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
 // Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
-constexpr float kLargestNumber = 1e9f;
+constexpr double kLargestNumber = 1e12;
 
-std::optional<float> parsed(const std::string& text) {
-  float number{};
+std::optional<double> parsed(const std::string& text) {
+  double number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }
 
-std::optional<std::vector<float>> numbers(const std::string& text) {
-  std::vector<float> values;
+std::optional<std::vector<double>> numbers(const std::string& text) {
+  std::vector<double> values;
   std::stringstream stream(text);
   for (std::string word; std::getline(stream, word, ',');) {
-    const std::optional<float> value = parsed(word);
+    const std::optional<double> value = parsed(word);
     if (!value || !(std::abs(*value) <= kLargestNumber)) return std::nullopt;
     values.push_back(*value);
   }
   return values;
 }
 
-std::optional<glm::vec3> vectorFrom(const std::string& text) {
+std::optional<glm::dvec3> vectorFrom(const std::string& text) {
   const auto values = numbers(text);
   if (!values || values->size() != 3 || text.ends_with(',')) return std::nullopt;
-  return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
+  return glm::dvec3((*values)[0], (*values)[1], (*values)[2]);
 }
 
 /// "A:B" as its two sides; B is empty without a colon.
@@ -49,8 +49,7 @@ std::pair<std::string, std::string> splitAt(const std::string& text, char separa
 bool readCamera(const std::string& text, SceneOptions& options) {
   const auto [eyeText, targetText] = splitAt(text, ':');
   const auto eye = vectorFrom(eyeText), target = vectorFrom(targetText);
-  // Squared, their distance must not vanish.
-  if (eye && target && glm::distance(*eye, *target) > 1e-9f)
+  if (eye && target && *eye != *target)
     options.viewpoint = {*eye, *target};
   else if (eye)
     return false;  // a place without a target is no name
@@ -62,8 +61,8 @@ bool readCamera(const std::string& text, SceneOptions& options) {
 bool readLamp(const std::string& text, SceneOptions& options) {
   const auto [placeText, colorText] = splitAt(text, ':');
   const auto place = vectorFrom(placeText);
-  const auto color = colorText.empty() ? glm::vec3(1.0f) : vectorFrom(colorText);
-  if (!place || !color || glm::any(glm::lessThan(*color, glm::vec3(0.0f)))) return false;
+  const auto color = colorText.empty() ? glm::dvec3(1.0) : vectorFrom(colorText);
+  if (!place || !color || glm::any(glm::lessThan(*color, glm::dvec3(0.0)))) return false;
   options.lamps.push_back({*place, *color});
   return true;
 }

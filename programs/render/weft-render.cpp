@@ -163,7 +163,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
                 fmt::format("--size {}x{}", size.width, size.height), made.error().hint);
   const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
   for (std::size_t i = 0; i < files.size(); ++i) {
-    setup.turn(glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(files.size()));
+    setup.turn(glm::two_pi<double>() * static_cast<double>(i) / static_cast<double>(files.size()));
     WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
     FloatImage picture = target.read(context, kSupersampling);
     expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));

@@ -3,77 +3,123 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/ext/matrix_double3x3.hpp>
+#include <glm/ext/matrix_double4x4.hpp>
+#include <glm/ext/vector_double2.hpp>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
+#include <optional>
 
 #include "weft/core/Contract.h"
 #include "weft/scenegraph/Geometry.h"
+#include "weft/scenegraph/Switch.h"
 #include "weft/scenegraph/Traversal.h"
 
 namespace weft {
 namespace {
 
+/// Shows a function the vertices that are not left over, each once.
 template <class See>
-void forEachVertex(const Node& root, See see) {
-  traverse(root, [&](const Node& node, const glm::mat4& toWorld) {
-    if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
-      for (const glm::vec3 position : geometry->mesh()->positions)
-        see(glm::vec3(toWorld * glm::vec4(position, 1.0f)));
+void forEachUsedVertex(const Mesh& mesh, See see) {
+  std::vector<bool> used(mesh.positions.size());
+  for (const std::uint32_t index : mesh.indices)
+    if (index < used.size()) used[index] = true;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) see(glm::dvec3(mesh.positions[i]));
+}
+
+bool isHiddenBySwitch(const Node& node) {
+  if (!node.parent()) return false;
+  const auto* above = dynamic_cast<const Switch*>(&node.parent()->core());
+  if (!above || above->choice() == Switch::kAll) return false;
+  const auto& brothers = node.parent()->children();
+  const auto choice = static_cast<std::size_t>(above->choice());
+  return above->choice() < 0 || choice >= brothers.size() || brothers[choice].get() != &node;
+}
+
+/// Whether a matrix leaves triangles an area, and lines and points a place of their own.
+bool leavesSomething(const glm::dmat3& matrix, Topology topology) {
+  const auto isZero = [](const glm::dvec3& v) { return v == glm::dvec3(0.0); };
+  if (topology != Topology::Triangles) return !(isZero(matrix[0]) && isZero(matrix[1]) && isZero(matrix[2]));
+  return !(isZero(glm::cross(matrix[0], matrix[1])) && isZero(glm::cross(matrix[1], matrix[2])) &&
+           isZero(glm::cross(matrix[2], matrix[0])));
+}
+
+template <class See>
+void forEachSeenVertex(const Node& root, See see) {
+  traverse(root, [&](const Node& node, const glm::dmat4& toWorld) {
+    if (&node != &root && isHiddenBySwitch(node)) return Visit::Skip;
+    const auto* geometry = dynamic_cast<const Geometry*>(&node.core());
+    if (geometry && leavesSomething(glm::dmat3(toWorld), geometry->mesh()->topology))
+      forEachUsedVertex(*geometry->mesh(), [&](const glm::dvec3& position) {
+        see(glm::dvec3(toWorld * glm::dvec4(position, 1.0)));
+      });
     return Visit::Continue;
   });
 }
 
 }  // namespace
 
-float Bounds::radius() const {
-  return empty() ? 0.0f : 0.5f * glm::length(maximum - minimum);
+double Bounds::radius() const {
+  return empty() ? 0.0 : 0.5 * glm::length(maximum - minimum);
 }
 
-void Bounds::include(glm::vec3 point) {
+void Bounds::include(glm::dvec3 point) {
   minimum = glm::min(minimum, point);
   maximum = glm::max(maximum, point);
 }
 
+Bounds boundsOf(const Mesh& mesh) {
+  Bounds bounds;
+  forEachUsedVertex(mesh, [&](const glm::dvec3& vertex) { bounds.include(vertex); });
+  return bounds;
+}
+
 Bounds boundsOf(const Node& root) {
   Bounds bounds;
-  forEachVertex(root, [&](glm::vec3 vertex) { bounds.include(vertex); });
+  forEachSeenVertex(root, [&](const glm::dvec3& vertex) { bounds.include(vertex); });
   return bounds;
 }
 
 Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalFieldOfView) {
   WEFT_EXPECT(glm::length(from) > 0.0f && aspect > 0.0f, "a picture has a direction and an area");
-  const glm::vec3 back = glm::normalize(from);
-  const glm::vec3 up = std::abs(back.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
-  const glm::vec3 right = glm::normalize(glm::cross(up, back));
-  const glm::mat3 toCamera = glm::transpose(glm::mat3(right, glm::cross(back, right), back));
-  constexpr float margin = 1.06f;
-  const float tangentY = std::tan(0.5f * verticalFieldOfView) / margin;
-  const glm::vec2 tangent(aspect * tangentY, tangentY);
+  const glm::dvec3 back = glm::normalize(glm::dvec3(from));
+  const glm::dvec3 up = std::abs(back.y) > 0.999 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+  const glm::dmat3 toCamera = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
+  constexpr double margin = 1.06;
+  const double tangentY = std::tan(0.5 * double{verticalFieldOfView}) / margin;
+  const glm::dvec2 tangent(double{aspect} * tangentY, tangentY);
 
-  // A vertex p (camera axes) is inside for an eye e where |p.x - e.x| <= tangent.x (e.z - p.z), and likewise
-  // for y: two planes a side, of which the outermost vertices decide.
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  glm::vec2 high(-infinity), low(-infinity);
-  float nearest = -infinity, farthest = infinity;
-  forEachVertex(root, [&](glm::vec3 vertex) {
-    const glm::vec3 p = toCamera * vertex;
-    high = glm::max(high, tangent * p.z + glm::vec2(p));
-    low = glm::max(low, tangent * p.z - glm::vec2(p));
+  // A vertex p (camera axes, from the first vertex) is inside for an eye e where |p.x - e.x| <= tangent.x
+  // (e.z
+  // - p.z), and likewise for y: two planes a side, of which the outermost vertices decide.
+  std::optional<glm::dvec3> origin;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 high(-infinity), low(-infinity);
+  double nearest = -infinity, farthest = infinity;
+  forEachSeenVertex(root, [&](const glm::dvec3& vertex) {
+    if (!origin) origin = vertex;
+    const glm::dvec3 p = toCamera * (vertex - *origin);
+    high = glm::max(high, tangent * p.z + glm::dvec2(p));
+    low = glm::max(low, tangent * p.z - glm::dvec2(p));
     nearest = std::max(nearest, p.z);
     farthest = std::min(farthest, p.z);
   });
-  WEFT_EXPECT(nearest >= farthest, "there is nothing to frame");
-  const glm::vec2 distances = 0.5f * (high + low) / tangent;
-  const float depth = std::max({nearest - farthest, distances.x - farthest, distances.y - farthest, 1e-3f});
-  // At least a little in front of what is nearest, which the planes alone do not ask of a line.
-  const float eye = std::max({distances.x, distances.y, nearest + 0.01f * depth});
-  const glm::vec3 position = glm::vec3(0.5f * (high - low), eye) * toCamera;
+  WEFT_EXPECT(origin, "there is nothing to frame");
+  const glm::dvec2 distances = 0.5 * (high + low) / tangent;
+  const double size = std::max({nearest - farthest, distances.x - farthest, distances.y - farthest});
+  // At least a little in front of what is nearest, which the planes alone do not ask of a line; a point is as
+  // large from anywhere.
+  const double gap = size > 0.0 ? 0.01 * size : 1.0;
+  const double eye = std::max({distances.x, distances.y, nearest + gap});
+  const glm::dvec3 position = *origin + glm::dvec3(0.5 * (high - low), eye) * toCamera;
 
-  Camera camera = Camera::lookAt(position, position - back, up);
+  Camera camera;
+  camera.view = glm::dmat4(toCamera);
+  camera.view[3] = glm::dvec4(-(toCamera * position), 1.0);
   camera.verticalFieldOfView = verticalFieldOfView;
-  camera.nearPlane = 0.9f * (eye - nearest);
-  camera.farPlane = 1.1f * (eye - farthest);
+  camera.nearPlane = static_cast<float>(0.9 * (eye - nearest));
+  camera.farPlane = static_cast<float>(1.1 * (eye - farthest));
   return camera;
 }
 

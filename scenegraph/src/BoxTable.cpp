@@ -21,22 +21,24 @@ float rounding(glm::vec4 plane, glm::vec3 center, glm::vec3 extent) {
 }
 
 /// Whether the half-line meets the box; slabs that it is parallel to and in give NaN, which lets it pass.
-bool meets(const Ray& ray, glm::vec3 center, glm::vec3 extent) {
-  float enter = 0.0f, leave = kInfinity;
+bool meets(const Ray& ray, const glm::dvec3& center, glm::vec3 extent) {
+  // Of the rounding of extents, of places, and of the quotients.
+  constexpr double ofExtent = 4.0 * std::numeric_limits<float>::epsilon();
+  constexpr double ofPlace = 8.0 * std::numeric_limits<double>::epsilon();
+  double enter = 0.0, leave = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
-    const float offset = center[axis] - ray.origin[axis];
-    const float slack =
-        4.0f * std::numeric_limits<float>::epsilon() * (std::abs(center[axis]) + extent[axis]);
-    const float reach = extent[axis] + slack;
-    if (ray.direction[axis] == 0.0f) {
+    const double offset = center[axis] - ray.origin[axis];
+    const double reach = double{extent[axis]} * (1.0 + ofExtent) +
+                         ofPlace * (std::abs(center[axis]) + std::abs(ray.origin[axis]));
+    if (ray.direction[axis] == 0.0) {
       if (std::abs(offset) > reach) return false;
       continue;
     }
-    const float a = (offset - reach) / ray.direction[axis], b = (offset + reach) / ray.direction[axis];
+    const double a = (offset - reach) / ray.direction[axis], b = (offset + reach) / ray.direction[axis];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return !(enter > leave * (1.0f + 4.0f * std::numeric_limits<float>::epsilon()));
+  return !(enter > leave * (1.0 + ofPlace));
 }
 
 /// Appends first + i for every bit i of the mask.
@@ -48,7 +50,7 @@ void append(std::uint64_t mask, std::size_t block, std::vector<std::uint32_t>& n
 
 }  // namespace
 
-void BoxTable::set(std::uint32_t number, glm::vec3 center, glm::vec3 extent) {
+void BoxTable::set(std::uint32_t number, const glm::dvec3& center, glm::vec3 extent) {
   if (number / kBlock >= blocks_.size()) blocks_.resize(number / kBlock + 1);
   Block& block = blocks_[number / kBlock];
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,40 +75,51 @@ void BoxTable::update() {
 void BoxTable::mend(Block& block) {
   block.changed = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    float low = kInfinity, high = -kInfinity;
+    double low = kInfinity, high = -kInfinity;
     for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(mask));
-      low = std::min(low, block.center[axis][i] - block.extent[axis][i]);
-      high = std::max(high, block.center[axis][i] + block.extent[axis][i]);
+      const double center = block.center[axis][i], extent = double{block.extent[axis][i]};
+      low = std::min(low, center - extent);
+      high = std::max(high, center + extent);
       // What is not a number lies everywhere.
-      if (std::isnan(block.center[axis][i] + block.extent[axis][i])) low = -kInfinity, high = kInfinity;
+      if (std::isnan(center + extent)) low = -kInfinity, high = kInfinity;
     }
-    block.blockCenter[static_cast<int>(axis)] = 0.5f * (low + high);
-    block.blockExtent[static_cast<int>(axis)] = 0.5f * (high - low);
+    block.blockCenter[static_cast<int>(axis)] = 0.5 * (low + high);
+    block.blockExtent[static_cast<int>(axis)] = static_cast<float>(0.5 * (high - low));
   }
 }
 
+std::array<BoxTable::Lane, 3> BoxTable::centersFrom(const glm::dvec3& eye, const Block& block) {
+  std::array<Lane, 3> centers;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < kBlock; ++i)
+      centers[axis][i] = static_cast<float>(block.center[axis][i] - eye[static_cast<int>(axis)]);
+  return centers;
+}
+
 std::uint64_t BoxTable::insideMask(const Block& block, const Frustum& frustum) {
+  const glm::vec3 blockCenter(block.blockCenter - frustum.eye);
   bool allInside = true;
   for (const glm::vec4 plane : frustum.planes) {
     const glm::vec3 normal(plane);
-    const float distance = glm::dot(normal, block.blockCenter) + plane.w;
+    const float distance = glm::dot(normal, blockCenter) + plane.w;
     const float reach = glm::dot(glm::abs(normal), block.blockExtent);
-    const float slack = rounding(plane, block.blockCenter, block.blockExtent);
+    const float slack = rounding(plane, blockCenter, block.blockExtent);
     if (distance + reach < -slack) return 0;
     allInside = allInside && distance - reach >= slack;
   }
   if (allInside) return block.occupied;
 
   // How far the innermost corner of each box is inside the plane that it is least inside of.
+  const std::array<Lane, 3> centers = centersFrom(frustum.eye, block);
   Lane inside;
   inside.fill(kInfinity);
   for (const glm::vec4 plane : frustum.planes) {
     const glm::vec3 reach = glm::abs(glm::vec3(plane));
-    const float offset = plane.w + rounding(plane, block.blockCenter, block.blockExtent);
-    const float* cx = block.center[0].data();
-    const float* cy = block.center[1].data();
-    const float* cz = block.center[2].data();
+    const float offset = plane.w + rounding(plane, blockCenter, block.blockExtent);
+    const float* cx = centers[0].data();
+    const float* cy = centers[1].data();
+    const float* cz = centers[2].data();
     const float* ex = block.extent[0].data();
     const float* ey = block.extent[1].data();
     const float* ez = block.extent[2].data();
@@ -133,7 +146,7 @@ void BoxTable::findMet(const Ray& ray, std::vector<std::uint32_t>& numbers) cons
     std::uint64_t met = 0;
     for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(mask));
-      const glm::vec3 center(block.center[0][k], block.center[1][k], block.center[2][k]);
+      const glm::dvec3 center(block.center[0][k], block.center[1][k], block.center[2][k]);
       const glm::vec3 extent(block.extent[0][k], block.extent[1][k], block.extent[2][k]);
       if (meets(ray, center, extent)) met |= std::uint64_t{1} << k;
     }

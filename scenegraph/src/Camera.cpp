@@ -4,29 +4,29 @@
 
 namespace weft {
 
-glm::mat4 Camera::projection(float aspect) const {
+glm::dmat4 Camera::projection(float aspect) const {
   if (ownProjection) return *ownProjection;
   if (orthographicHeight > 0.0f) {
-    const float y = 0.5f * orthographicHeight, x = aspect * y;
-    return glm::ortho(-x, x, -y, y, nearPlane, farPlane);
+    const double y = 0.5 * double{orthographicHeight}, x = double{aspect} * y;
+    return glm::ortho(-x, x, -y, y, double{nearPlane}, double{farPlane});
   }
-  return glm::perspective(verticalFieldOfView, aspect, nearPlane, farPlane);
+  return glm::perspective(double{verticalFieldOfView}, double{aspect}, double{nearPlane}, double{farPlane});
 }
 
-glm::vec3 Camera::position() const {
-  return glm::vec3(glm::inverse(view)[3]);
+glm::dvec3 Camera::position() const {
+  return glm::dvec3(glm::inverse(view)[3]);
 }
 
-glm::vec4 Camera::eye() const {
-  if (isOrthographic()) return glm::vec4(glm::normalize(glm::vec3(glm::inverse(view)[2])), 0.0f);
-  return glm::vec4(position(), 1.0f);
+glm::dvec4 Camera::eye() const {
+  if (isOrthographic()) return glm::dvec4(glm::normalize(glm::dvec3(glm::inverse(view)[2])), 0.0);
+  return glm::dvec4(position(), 1.0);
 }
 
 bool Camera::isOrthographic() const {
-  return ownProjection ? (*ownProjection)[2][3] == 0.0f : orthographicHeight > 0.0f;
+  return ownProjection ? (*ownProjection)[2][3] == 0.0 : orthographicHeight > 0.0f;
 }
 
-Camera Camera::lookAt(glm::vec3 eye, glm::vec3 target, glm::vec3 up) {
+Camera Camera::lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
   Camera camera;
   camera.view = glm::lookAt(eye, target, up);
   return camera;

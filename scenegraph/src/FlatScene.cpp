@@ -50,7 +50,7 @@ const Node* FlatScene::undressed() const {
   return nullptr;
 }
 
-bool FlatScene::shows(Level level, glm::vec3 eye) const {
+bool FlatScene::shows(Level level, const glm::dvec3& eye) const {
   while (level.lod != kNone) {
     const PlacedLOD& lod = lods_[level.lod];
     const std::vector<float>& ranges = lod.core->ranges();
@@ -162,7 +162,7 @@ void FlatScene::place(Entry& entry, const Inherited& above) {
     become(entry, Kind::Switch);
   } else if (const auto* lod = dynamic_cast<const LOD*>(&core)) {
     become(entry, Kind::LOD);
-    lods_[entry.slot] = {lod, glm::vec3(above.toWorld * glm::vec4(lod->center(), 1.0f)), above.level};
+    lods_[entry.slot] = {lod, glm::dvec3(above.toWorld * glm::dvec4(lod->center(), 1.0)), above.level};
   } else if (const auto* light = dynamic_cast<const Light*>(&core); light && above.shown) {
     become(entry, Kind::Light);
     lights_[entry.slot] = {light, above.toWorld, above.level};
@@ -172,11 +172,11 @@ void FlatScene::place(Entry& entry, const Inherited& above) {
 }
 
 void FlatScene::placeObject(const Entry& entry, const Geometry& geometry, const Inherited& above) {
-  const glm::mat4& toWorld = above.toWorld;
-  const glm::mat4 rows = glm::transpose(toWorld);
+  const glm::dmat4& toWorld = above.toWorld;
+  const glm::dmat3 rows = glm::transpose(glm::dmat3(toWorld));
   FlatObject& object = objects_[entry.slot];
-  object.model = {{rows[0], rows[1], rows[2]}};
-  object.mirrored = glm::determinant(glm::mat3(toWorld)) < 0.0f;
+  for (int row = 0; row < 3; ++row) object.model.rows[row] = glm::vec4(rows[row], 0.0f);
+  object.mirrored = glm::determinant(rows) < 0.0;
   object.level = above.level;
   object.node = entry.node;
 
@@ -187,10 +187,10 @@ void FlatScene::placeObject(const Entry& entry, const Geometry& geometry, const 
   leaveMaterial(std::exchange(object.material, material));
 
   const Bounds& bounds = geometry.bounds();
-  const glm::vec3 extent = 0.5f * (bounds.maximum - bounds.minimum);
-  glm::vec3 worldExtent(0.0f);
-  for (int axis = 0; axis < 3; ++axis) worldExtent += glm::abs(glm::vec3(toWorld[axis])) * extent[axis];
-  boxes_.set(entry.slot, glm::vec3(toWorld * glm::vec4(bounds.center(), 1.0f)), worldExtent);
+  const glm::dvec3 extent = 0.5 * (bounds.maximum - bounds.minimum);
+  glm::dvec3 worldExtent(0.0);
+  for (int axis = 0; axis < 3; ++axis) worldExtent += glm::abs(glm::dvec3(toWorld[axis])) * extent[axis];
+  boxes_.set(entry.slot, glm::dvec3(toWorld * glm::dvec4(bounds.center(), 1.0)), worldExtent);
 }
 
 void FlatScene::become(Entry& entry, Kind kind) {

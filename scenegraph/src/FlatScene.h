@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
+#include <glm/ext/matrix_double4x4.hpp>
+#include <glm/ext/vector_double3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -33,18 +34,19 @@ struct Level {
 /// A LOD node in the world.
 struct PlacedLOD {
   const LOD* core = nullptr;
-  glm::vec3 center{0.0f};
+  glm::dvec3 center{0.0};
   Level level;  ///< that it hangs below itself
 };
 
-/// The first three rows of a child-to-world matrix, as shaders/mesh.vert takes them.
+/// The first three rows of a matrix from a mesh, around the middle of its bounds, to the world, around the
+/// eye, as shaders/mesh.vert takes them.
 struct ModelRows {
   glm::vec4 rows[3];
 };
 
-/// A geometry at one place of the tree.
+/// A geometry at one place of the tree. Where the middle of its mesh's bounds lies is the centre of its box.
 struct FlatObject {
-  ModelRows model;
+  ModelRows model;                 ///< not yet moved
   std::uint32_t mesh = kNone;      ///< number in FlatScene::meshes()
   std::uint32_t material = kNone;  ///< number in FlatScene::materials()
   Level level;
@@ -54,7 +56,7 @@ struct FlatObject {
 
 struct PlacedLight {
   const Light* core = nullptr;
-  glm::mat4 toWorld{1.0f};
+  glm::dmat4 toWorld{1.0};
   Level level;
 };
 
@@ -100,12 +102,12 @@ class FlatScene {
   /// The first object that nothing gives a material, or null.
   const Node* undressed() const;
   /// Is what has this level shown to an eye at this place?
-  bool shows(Level level, glm::vec3 eye) const;
+  bool shows(Level level, const glm::dvec3& eye) const;
 
  private:
   /// What a node gets from above.
   struct Inherited {
-    glm::mat4 toWorld{1.0f};
+    glm::dmat4 toWorld{1.0};
     const std::shared_ptr<const Material>* material = nullptr;  ///< in the core of a MaterialGroup
     Level level;
     bool shown = true;

@@ -19,12 +19,13 @@ struct LightBlock {
 
 struct FrameBlock {
   glm::mat4 viewProjection{1.0f};
-  glm::vec4 eye{0.0f};
+  glm::vec4 eye{0.0f};     ///< relative to itself: (0, 0, 0, 1), or the direction of an orthographic view
+  glm::vec4 origin{0.0f};  ///< the eye's place in the world
   std::array<LightBlock, kMaximumLights> lights{};  ///< the directional ones first
   std::array<glm::vec4, 3> environmentRows{};       ///< from world space to the environment
   glm::vec4 environmentIntensity{0.0f};             ///< rgb; w: EnvironmentLight::scale()
 };
-static_assert(sizeof(FrameBlock) == 64 + 16 + kMaximumLights * 48 + 64);
+static_assert(sizeof(FrameBlock) == 64 + 32 + kMaximumLights * 48 + 64);
 
 constexpr unsigned kFrameBinding = 0;
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <glm/ext/vector_double3.hpp>
+
+#include "weft/scenegraph/Bounds.h"
 
 namespace weft {
 
@@ -66,10 +69,12 @@ bool isExtended(const Mesh& mesh) {
 
 std::vector<std::byte> interleaved(const Mesh& mesh) {
   const bool extended = isExtended(mesh);
+  const glm::dvec3 center = boundsOf(mesh).center();
   std::vector<std::byte> bytes(mesh.positions.size() * vertexBytes(extended));
   std::byte* out = bytes.data();
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Vertex vertex{mesh.positions[i], mesh.normals[i], mesh.tangents[i], mesh.texcoords[i]};
+    const Vertex vertex{glm::dvec3(mesh.positions[i]) - center, mesh.normals[i], mesh.tangents[i],
+                        mesh.texcoords[i]};
     std::memcpy(out, &vertex, sizeof vertex);
     if (extended) {
       Extension extension;

@@ -45,6 +45,7 @@ struct MeshPlace {
 };
 
 /// Puts a mesh into the buffers of the context at the first call; one place for all geometries that share it.
+/// Its positions become relative to the middle of its bounds, so that floats suffice wherever that is.
 const MeshPlace& meshPlace(GLContext& context, const std::shared_ptr<const Mesh>& mesh);
 
 }  // namespace weft

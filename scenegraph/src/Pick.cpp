@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
 #include "FlatScene.h"
@@ -42,20 +44,21 @@ struct Nearest {
   std::size_t triangle = 0;
 };
 
-void findNearest(const FlatObject& object, const Mesh& mesh, const Ray& ray, Nearest& nearest) {
+/// `center`: of the object's box.
+void findNearest(const FlatObject& object, const glm::dvec3& center, const Ray& ray, Nearest& nearest) {
+  const auto& geometry = static_cast<const Geometry&>(object.node->core());
+  const Mesh& mesh = *geometry.mesh();
   if (mesh.topology != Topology::Triangles) return;
-  const glm::dvec3 origin(ray.origin), direction(ray.direction);
+  const auto& rows = object.model.rows;
+  const glm::dmat3 linear = glm::transpose(glm::dmat3(rows[0], rows[1], rows[2]));
+  const glm::dvec3 middle = geometry.bounds().center(), offset = center - ray.origin;
   std::vector<glm::dvec3> places;
   places.reserve(mesh.positions.size());
-  for (const glm::vec3 position : mesh.positions) {
-    const glm::vec4 local(position, 1.0f);
-    const auto& rows = object.model.rows;
-    places.push_back(
-        glm::dvec3(glm::dot(rows[0], local), glm::dot(rows[1], local), glm::dot(rows[2], local)) - origin);
-  }
+  for (const glm::vec3 position : mesh.positions)
+    places.push_back(linear * (glm::dvec3(position) - middle) + offset);
   const auto place = [&](std::size_t i) { return places[mesh.indices[i]]; };
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const auto hit = meet(direction, {place(i), place(i + 1), place(i + 2)});
+    const auto hit = meet(ray.direction, {place(i), place(i + 1), place(i + 2)});
     if (!hit || !(glm::length(hit->offset) < nearest.distance)) continue;
     nearest = {glm::length(hit->offset), *hit, &object, i / 3};
   }
@@ -87,12 +90,12 @@ std::optional<Hit> pick(const Node& root, const Ray& ray) {
   for (const std::uint32_t number : met) {
     const FlatObject& object = scene.objects()[number];
     if (scene.shows(object.level, ray.origin))
-      findNearest(object, *scene.meshes()[object.mesh].mesh, ray, nearest);
+      findNearest(object, scene.boxes().center(number), ray, nearest);
   }
   if (!nearest.object) return std::nullopt;
   return Hit{.path = pathTo(root, nearest.object->node),
-             .distance = static_cast<float>(nearest.distance),
-             .position = glm::vec3(glm::dvec3(ray.origin) + nearest.hit.offset),
+             .distance = nearest.distance,
+             .position = ray.origin + nearest.hit.offset,
              .texcoord = texcoordOf(*scene.meshes()[nearest.object->mesh].mesh, nearest),
              .triangle = nearest.triangle};
 }

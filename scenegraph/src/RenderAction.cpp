@@ -64,18 +64,18 @@ struct Batch {
   }
 };
 
-glm::vec3 unitOrZero(glm::vec3 v) {
-  const float length = glm::length(v);
-  return length > 0.0f ? v / length : glm::vec3(0.0f);
+glm::vec3 unitOrZero(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
 float inverseSquare(float range) {
   return 1.0f / (range * range);
 }
 
-LightBlock blockOf(const PlacedLight& light) {
-  const glm::vec4 position(glm::vec3(light.toWorld[3]), 0.0f);
-  const glm::vec3 backwards = unitOrZero(glm::vec3(light.toWorld[2]));
+LightBlock blockOf(const PlacedLight& light, const glm::dvec3& eye) {
+  const glm::vec4 position(glm::dvec3(light.toWorld[3]) - eye, 0.0f);
+  const glm::vec3 backwards = unitOrZero(glm::dvec3(light.toWorld[2]));
   if (const auto* directional = dynamic_cast<const DirectionalLight*>(light.core))
     return {glm::vec4(backwards, 0.0f), glm::vec4(directional->irradiance, 0.0f)};
   if (const auto* point = dynamic_cast<const PointLight*>(light.core))
@@ -86,6 +86,20 @@ LightBlock blockOf(const PlacedLight& light) {
   return {position, glm::vec4(spot.intensity, inverseSquare(spot.range)),
           glm::vec4(-slope * backwards, -slope * outer)};
 }
+
+/// What is seen from where. Shaders work around the eye, so that floats suffice wherever in the world it is.
+struct View {
+  View(const Camera& camera, float aspect)
+      : place(camera.position()),
+        eye(camera.isOrthographic() ? camera.eye() : glm::dvec4(0, 0, 0, 1)),
+        axes(glm::dmat3(camera.view)),
+        fromEye(camera.projection(aspect) * glm::dmat4(axes)) {}
+
+  glm::dvec3 place;    ///< of the eye in the world
+  glm::vec4 eye;       ///< from there: (0, 0, 0, 1), or the direction of an orthographic view
+  glm::dmat3 axes;     ///< from the world's axes to the camera's
+  glm::dmat4 fromEye;  ///< from the world's axes around the eye to clip space
+};
 
 /// What the shaders of a frame share.
 struct FrameNumbers {
@@ -104,25 +118,28 @@ struct FrameNumbers {
   }
 };
 
-void setEnvironment(FrameBlock& block, const EnvironmentLight& environment, const glm::mat4& toWorld) {
+void setEnvironment(FrameBlock& block, const EnvironmentLight& environment, const glm::dmat4& toWorld) {
   // The columns of a rotation are the rows of its inverse; scale does not move what is infinitely far away.
   for (int i = 0; i < 3; ++i)
-    block.environmentRows[static_cast<std::size_t>(i)] = glm::vec4(unitOrZero(glm::vec3(toWorld[i])), 0.0f);
+    block.environmentRows[static_cast<std::size_t>(i)] = glm::vec4(unitOrZero(glm::dvec3(toWorld[i])), 0.0f);
   block.environmentIntensity = glm::vec4(environment.intensity, environment.scale());
 }
 
-Result<FrameNumbers> frameNumbers(const FlatScene& scene, const Camera& camera,
-                                  const glm::mat4& viewProjection) {
-  FrameNumbers numbers{{viewProjection, camera.eye(), {}}};
+Result<FrameNumbers> frameNumbers(const FlatScene& scene, const View& view) {
+  FrameNumbers numbers;
+  numbers.block.viewProjection = view.fromEye;
+  numbers.block.eye = view.eye;
+  numbers.block.origin = glm::vec4(view.place, 0.0f);
   std::vector<LightBlock> directional, placed;
   for (const PlacedLight& light : scene.lights().all()) {
-    if (!light.core || !scene.shows(light.level, camera.position())) continue;
+    if (!light.core || !scene.shows(light.level, view.place)) continue;
     if (const auto* environment = dynamic_cast<const EnvironmentLight*>(light.core)) {
       if (numbers.environment) return fail("the scene has more than one environment");
       numbers.environment = environment;
       setEnvironment(numbers.block, *environment, light.toWorld);
     } else {
-      (dynamic_cast<const DirectionalLight*>(light.core) ? directional : placed).push_back(blockOf(light));
+      (dynamic_cast<const DirectionalLight*>(light.core) ? directional : placed)
+          .push_back(blockOf(light, view.place));
     }
   }
   const std::size_t count = directional.size() + placed.size();
@@ -143,6 +160,11 @@ const MeshPlace& placeOf(GLContext& context, ScenePlaces& places, const UsedMesh
   ScenePlaces::Known& known = places.known[number];
   if (known.serial != mesh.serial) known = {mesh.serial, &meshPlace(context, mesh.mesh)};
   return *known.place;
+}
+
+ModelRows movedTo(ModelRows model, const glm::vec3& place) {
+  for (int row = 0; row < 3; ++row) model.rows[row].w = place[row];
+  return model;
 }
 
 void fill(GLBuffer& buffer, const void* data, std::size_t bytes) {
@@ -168,26 +190,25 @@ struct RenderAction::Frame {
   std::vector<DrawCommand> commands;
   std::vector<Batch> batches;
 
-  void findVisible(const FlatScene& scene, const Camera& camera, const glm::mat4& viewProjection);
-  void sort(GLContext& context, const FlatScene& scene, const Camera& camera);
-  void batch(GLContext& context, const FlatScene& scene);
+  void findVisible(const FlatScene& scene, const View& view);
+  void sort(GLContext& context, const FlatScene& scene, const View& view);
+  void batch(GLContext& context, const FlatScene& scene, const View& view);
   void draw(GLContext& context, const FlatScene& scene, FrameObjects& objects,
             const EnvironmentLight* environment, RenderStatistics& statistics) const;
 };
 
-void RenderAction::Frame::findVisible(const FlatScene& scene, const Camera& camera,
-                                      const glm::mat4& viewProjection) {
+void RenderAction::Frame::findVisible(const FlatScene& scene, const View& view) {
   visible.clear();
-  scene.boxes().findInside(Frustum(viewProjection), visible);
-  std::erase_if(visible, [&, eye = camera.position()](std::uint32_t number) {
+  scene.boxes().findInside(Frustum(view.place, view.fromEye), visible);
+  std::erase_if(visible, [&](std::uint32_t number) {
     const Level level = scene.objects()[number].level;
-    return level.lod != kNone && !scene.shows(level, eye);
+    return level.lod != kNone && !scene.shows(level, view.place);
   });
 }
 
-void RenderAction::Frame::sort(GLContext& context, const FlatScene& scene, const Camera& camera) {
+void RenderAction::Frame::sort(GLContext& context, const FlatScene& scene, const View& view) {
   auto& places = context.objectsOf<ScenePlaces>(scene.owner());
-  const glm::vec4 depthRow = -glm::transpose(camera.view)[2];
+  const glm::dvec3 forward = -glm::transpose(view.axes)[2];
   list.clear();
   for (const std::uint32_t number : visible) {
     const FlatObject& object = scene.objects()[number];
@@ -200,13 +221,13 @@ void RenderAction::Frame::sort(GLContext& context, const FlatScene& scene, const
               .kind = static_cast<std::uint32_t>(mesh.mesh->topology) << 1 | (object.mirrored ? 1u : 0u),
               .page = place.page->number,
               .mesh = mesh.uses > 1 ? object.mesh + 1 : 0,
-              .depth = glm::dot(depthRow, glm::vec4(scene.boxes().center(number), 1.0f))},
+              .depth = static_cast<float>(glm::dot(forward, scene.boxes().center(number) - view.place))},
              number);
   }
   list.sort();
 }
 
-void RenderAction::Frame::batch(GLContext& context, const FlatScene& scene) {
+void RenderAction::Frame::batch(GLContext& context, const FlatScene& scene, const View& view) {
   auto& places = context.objectsOf<ScenePlaces>(scene.owner());
   models.clear();
   commands.clear();
@@ -226,7 +247,7 @@ void RenderAction::Frame::batch(GLContext& context, const FlatScene& scene) {
                           static_cast<std::uint32_t>(models.size())});
       ++batches.back().commandCount;
     }
-    models.push_back(object.model);
+    models.push_back(movedTo(object.model, scene.boxes().center(item.object) - view.place));
     latest = &place;
   }
 }
@@ -320,12 +341,12 @@ Result<void> RenderAction::renderTo(const Place& place, GLContext& context, cons
   context.deleteOrphans();
   if (const Node* undressed = scene.undressed())
     return fail("a geometry has no material", undressed->name(), "put it below a MaterialGroup");
-  const glm::mat4 viewProjection = camera.projection(place.aspect) * camera.view;
-  WEFT_TRY(const FrameNumbers numbers, frameNumbers(scene, camera, viewProjection));
+  const View view(camera, place.aspect);
+  WEFT_TRY(const FrameNumbers numbers, frameNumbers(scene, view));
 
-  frame_->findVisible(scene, camera, viewProjection);
-  frame_->sort(context, scene, camera);
-  frame_->batch(context, scene);
+  frame_->findVisible(scene, view);
+  frame_->sort(context, scene, view);
+  frame_->batch(context, scene, view);
   statistics_ = {.objects = scene.objects().used(),
                  .culled = scene.objects().used() - frame_->visible.size(),
                  .draws = frame_->commands.size(),

@@ -56,11 +56,11 @@ std::string failure(const std::string& text) {
 
 /// A mesh where it stands in the world.
 struct Placed {
-  glm::mat4 toWorld;
+  glm::dmat4 toWorld;
   std::shared_ptr<const Mesh> mesh;
 };
 
-void collect(const Node& node, glm::mat4 toWorld, std::vector<Placed>& placed) {
+void collect(const Node& node, glm::dmat4 toWorld, std::vector<Placed>& placed) {
   if (const auto* transform = dynamic_cast<const Transform*>(&node.core())) toWorld *= transform->matrix();
   if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
     placed.push_back({toWorld, geometry->mesh()});
@@ -69,7 +69,7 @@ void collect(const Node& node, glm::mat4 toWorld, std::vector<Placed>& placed) {
 
 std::vector<Placed> meshesOf(const GltfScene& scene) {
   std::vector<Placed> placed;
-  collect(*scene.root, glm::mat4(1.0f), placed);
+  collect(*scene.root, glm::dmat4(1.0), placed);
   return placed;
 }
 
@@ -96,7 +96,7 @@ TEST(GltfLoader, ReadsAMesh) {
   expectIsThePlane(*meshesOf(scene)[0].mesh);
   EXPECT_THAT(scene.materials, ElementsAre("base"));
   EXPECT_THAT(scene.warnings, IsEmpty());
-  EXPECT_EQ(scene.bounds.minimum, glm::vec3(-0.5f, -0.5f, 0.0f));
+  EXPECT_EQ(scene.bounds.minimum, glm::dvec3(-0.5, -0.5, 0.0));
 }
 
 TEST(GltfLoader, ReadsTheBinaryForm) {
@@ -201,16 +201,16 @@ TEST(GltfLoader, PlacesMeshesAndCamerasAsTheirNodesSay) {
       R"("perspective":{"yfov":0.5,"znear":0.1}}])";
   const GltfScene scene = loaded(replaced(planeGltf(), R"("nodes":[{"mesh":0,"name":"plane"}])", nodes));
 
-  const glm::mat4 outer = glm::translate(glm::mat4(1), glm::vec3(1, 2, 3)) *
-                          glm::mat4_cast(glm::quat(0.8f, 0.0f, 0.6f, 0.0f)) *
-                          glm::scale(glm::mat4(1), glm::vec3(2, 1, 0.5f));
-  const glm::mat4 inner = glm::translate(glm::mat4(1), glm::vec3(5, 6, 7)) *
-                          glm::rotate(glm::mat4(1), glm::radians(90.0f), glm::vec3(0, 0, 1));
+  const glm::dmat4 outer = glm::translate(glm::mat4(1), glm::vec3(1, 2, 3)) *
+                           glm::mat4_cast(glm::quat(0.8f, 0.0f, 0.6f, 0.0f)) *
+                           glm::scale(glm::mat4(1), glm::vec3(2, 1, 0.5f));
+  const glm::dmat4 inner = glm::translate(glm::mat4(1), glm::vec3(5, 6, 7)) *
+                           glm::rotate(glm::mat4(1), glm::radians(90.0f), glm::vec3(0, 0, 1));
   ASSERT_EQ(scene.cameras.size(), 1u);
   EXPECT_EQ(scene.cameras[0].name, "eye");
   const Camera& camera = scene.cameras[0].camera;
   const glm::vec3 eye(outer * glm::vec4(0, 0, 9, 1));
-  const glm::mat4 expectedView = glm::lookAt(eye, eye - glm::vec3(0.96f, 0, 0.28f), glm::vec3(0, 1, 0));
+  const glm::dmat4 expectedView = glm::lookAt(eye, eye - glm::vec3(0.96f, 0, 0.28f), glm::vec3(0, 1, 0));
   const Placed placed = meshesOf(scene).at(0);
   for (const glm::vec3 position : placed.mesh->positions) {
     const glm::vec4 point(position, 1.0f);

@@ -51,7 +51,7 @@ std::string failure(const std::string& text, const GltfOptions& options = {}) {
 
 /// A geometry where it stands in the world, with its material.
 struct Drawn {
-  glm::mat4 toWorld;
+  glm::dmat4 toWorld;
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Material> material;
 };
@@ -70,7 +70,7 @@ void collect(const Node& node, Drawn above, std::vector<Drawn>& drawn) {
 
 std::vector<Drawn> drawnIn(const GltfScene& scene) {
   std::vector<Drawn> drawn;
-  collect(*scene.root, {glm::mat4(1.0f), nullptr, nullptr}, drawn);
+  collect(*scene.root, {glm::dmat4(1.0), nullptr, nullptr}, drawn);
   return drawn;
 }
 
@@ -433,20 +433,23 @@ std::string skinned(const std::string& jointNode, const std::string& jointNumber
       number(normals) + R"(,"JOINTS_0":)" + number(joints) + R"(,"WEIGHTS_0":)" + number(weights) + "}}]}]");
 }
 
+glm::vec3 inWorld(const Drawn& drawn, std::size_t vertex) {
+  return glm::vec3(drawn.toWorld * glm::dvec4(drawn.mesh->positions[vertex], 1.0));
+}
+
 TEST(GltfScene, SkinsMeshesInTheWorld) {
   // The mesh's own node counts only as the joints' parent.
   const Drawn straight = drawnIn(loaded(skinned(R"({"translation":[0,1,0]})"))).at(0);
-  EXPECT_EQ(straight.toWorld, glm::mat4(1.0f));
-  expectNear(straight.mesh->positions[0], {14, 9, 9});
-  expectNear(straight.mesh->positions[1], {15, 9, 9});
-  expectNear(straight.mesh->positions[2], {14, 11, 9});
+  expectNear(inWorld(straight, 0), {14, 9, 9});
+  expectNear(inWorld(straight, 1), {15, 9, 9});
+  expectNear(inWorld(straight, 2), {14, 11, 9});
   // The second joint bends by a quarter turn about X: what is one above it comes one before it.
   const Drawn bent =
       drawnIn(loaded(skinned(R"({"translation":[0,1,0],"rotation":[0.70710678,0,0,0.70710678]})"))).at(0);
-  expectNear(bent.mesh->positions[0], {14, 9, 9});
-  expectNear(bent.mesh->positions[2], {14, 10, 10});
+  expectNear(inWorld(bent, 0), {14, 9, 9});
+  expectNear(inWorld(bent, 2), {14, 10, 10});
   expectNear(bent.mesh->normals[2], {0, -1, 0});
-  expectNear(bent.mesh->positions[1], {15, 9.5f, 8.5f});
+  expectNear(inWorld(bent, 1), {15, 9.5f, 8.5f});
 
   EXPECT_THAT(failure(skinned("{}", "[1]")), HasSubstr("a joint that its skin does not have"));
   EXPECT_THAT(failure(skinned(R"({},{})", "[1,3]")), HasSubstr("not in the scene"));

@@ -281,9 +281,9 @@ TEST_F(PassiveWindowTest, TakesTheHostsProjection) {
   camera.verticalFieldOfView = 0.01f;
   test::requireDone(passive->render(*root, camera));
   EXPECT_EQ(framebuffer.pixels(), expected);
-  EXPECT_EQ(camera.eye(), glm::vec4(0, 0, 2, 1));
+  EXPECT_EQ(camera.eye(), glm::dvec4(0, 0, 2, 1));
   camera.ownProjection = Camera{.orthographicHeight = 3.0f}.projection(1.0f);
-  EXPECT_EQ(camera.eye(), glm::vec4(0, 0, 1, 0)) << "rays are parallel";
+  EXPECT_EQ(camera.eye(), glm::dvec4(0, 0, 1, 0)) << "rays are parallel";
 }
 
 TEST_F(PassiveWindowTest, OneSceneInTwoContextsThatEndBeforeIt) {

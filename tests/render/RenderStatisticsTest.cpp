@@ -78,10 +78,10 @@ TEST_F(RenderStatisticsTest, ASharedCoreIsDrawnAsInstances) {
 TEST_F(RenderStatisticsTest, WhatIsOutsideOfThePictureIsNotDrawn) {
   fill(1, true);
   Camera camera = test::squareCamera();
-  camera.view = glm::translate(camera.view, glm::vec3(-1.001f, 0.0f, 0.0f));  // sees the right half
+  camera.view = glm::translate(camera.view, glm::dvec3(-1.001, 0.0, 0.0));  // sees the right half
   EXPECT_EQ(drawn(camera).culled, 128u);
   EXPECT_EQ(renderer.statistics().triangles, 256u);
-  camera.view = glm::translate(camera.view, glm::vec3(-9.0f, 0.0f, 0.0f));
+  camera.view = glm::translate(camera.view, glm::dvec3(-9.0, 0.0, 0.0));
   EXPECT_EQ(drawn(camera).culled, 256u);
   EXPECT_EQ(renderer.statistics().drawCalls, 0u);
 }

@@ -107,7 +107,7 @@ class RandomTree {
 
   Node& randomNode() {
     std::vector<Node*> all;
-    traverse(*root_, [&](Node& node, const glm::mat4&) {
+    traverse(*root_, [&](Node& node, const glm::dmat4&) {
       all.push_back(&node);
       return Visit::Continue;
     });
@@ -139,13 +139,13 @@ class RandomTree {
 /// A geometry or light that is shown, as a plain walk over the tree finds it.
 struct Shown {
   const Node* node = nullptr;
-  glm::mat4 toWorld{1.0f};
+  glm::dmat4 toWorld{1.0};
   const Material* material = nullptr;
 };
 
 /// What an eye sees of a tree, by the rules of Switch, LOD, MaterialGroup and Transform, written down as
 /// recursion.
-inline void findShown(const Node& node, glm::vec3 eye, Shown above, std::vector<Shown>& shown) {
+inline void findShown(const Node& node, glm::dvec3 eye, Shown above, std::vector<Shown>& shown) {
   above.node = &node;
   const auto* transform = dynamic_cast<const Transform*>(&node.core());
   const auto* group = dynamic_cast<const MaterialGroup*>(&node.core());
@@ -161,10 +161,10 @@ inline void findShown(const Node& node, glm::vec3 eye, Shown above, std::vector<
   if (choice && choice->choice() == Switch::kNone) return;
   if (choice && choice->choice() >= 0) only(static_cast<std::size_t>(choice->choice()));
   if (levels) {
-    const float distance = glm::distance(eye, glm::vec3(above.toWorld * glm::vec4(levels->center(), 1)));
+    const double distance = glm::distance(eye, glm::dvec3(above.toWorld * glm::dvec4(levels->center(), 1)));
     const auto& ranges = levels->ranges();
     only(static_cast<std::size_t>(
-        std::count_if(ranges.begin(), ranges.end(), [&](float range) { return range <= distance; })));
+        std::count_if(ranges.begin(), ranges.end(), [&](float range) { return double{range} <= distance; })));
   }
   for (std::size_t i = first; i < last; ++i) findShown(*children[i], eye, above, shown);
 }

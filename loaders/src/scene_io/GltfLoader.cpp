@@ -1,8 +1,14 @@
 #include "weft/scene_io/GltfLoader.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
+#include <glm/ext/matrix_double4x4.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,21 +29,25 @@ namespace {
 
 constexpr int kDeepestNode = 1000;
 constexpr std::size_t kNodeMemory = 256;  // with its core, and what drawing it takes
+constexpr double kLargestRadius = 1e15;    // squares of distances, times light, are floats ...
+constexpr double kSmallestRadius = 1e-15;  // ... and not 0
+constexpr double kFarthest = 1e13;  // from the origin, in radii: doubles tell places in the scene apart
 
 /// A node of the file that is still to be read.
 struct Visit {
   int index;
   std::shared_ptr<Node> parent;
-  glm::mat4 toWorld;
+  glm::dmat4 toWorld;
   int depth;
 };
 
 /// A node of the scene.
 struct Placed {
   std::shared_ptr<Node> node;
-  glm::mat4 toWorld;
+  glm::dmat4 toWorld;
 };
 
+/// In floats.
 bool isFinite(const glm::mat4& matrix) {
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
@@ -46,14 +56,14 @@ bool isFinite(const glm::mat4& matrix) {
 }
 
 /// The inverse of a camera node's matrix without its scale, which glTF says to leave out.
-std::optional<glm::mat4> viewOf(const glm::mat4& toWorld) {
-  glm::mat4 rigid = toWorld;
+std::optional<glm::dmat4> viewOf(const glm::dmat4& toWorld) {
+  glm::dmat4 rigid = toWorld;
   for (int axis = 0; axis < 3; ++axis) {
-    const float length = glm::length(glm::vec3(toWorld[axis]));
-    if (!(length > 0.0f)) return std::nullopt;
+    const double length = glm::length(glm::dvec3(toWorld[axis]));
+    if (!(length > 0.0)) return std::nullopt;
     rigid[axis] = toWorld[axis] / length;
   }
-  const glm::mat4 view = glm::inverse(rigid);
+  const glm::dmat4 view = glm::inverse(rigid);
   if (!isFinite(view)) return std::nullopt;  // two axes are one
   return view;
 }
@@ -99,7 +109,7 @@ class SceneReader {
     scene_.materials = materials_.names();
     scene_.bounds = boundsOf(*scene_.root);
     if (scene_.bounds.empty()) return file_.fail("the scene draws nothing");
-    if (!std::isfinite(scene_.bounds.radius())) return file_.fail("the scene is too large");
+    WEFT_TRY_VOID(checkSize());
     setFarPlanes();
     for (std::string& warning : scene_.warnings) warning = printable(warning);
     scene_.data = file_.contents.data;
@@ -118,6 +128,18 @@ class SceneReader {
     if (!file_.model.animations.empty() && !options_.time) warn("animations stand still, no time is given");
   }
 
+  Result<void> checkSize() const {
+    const double radius = scene_.bounds.radius(), distance = glm::length(scene_.bounds.center());
+    const bool small = radius < kSmallestRadius;
+    if (radius != 0.0 && !(radius >= kSmallestRadius && radius <= kLargestRadius))
+      return file_.fail(
+          fmt::format("the scene is too {}, {:.1g} across", small ? "small" : "large", 2.0 * radius));
+    if (radius != 0.0 && distance > kFarthest * radius)
+      return file_.fail(fmt::format("the scene is too far from its origin, {:.1g}, for its size of {:.1g}",
+                                    distance, 2.0 * radius));
+    return {};
+  }
+
   /// Makes the nodes of the scene, still without contents, in the order of the file's tree.
   Result<void> placeNodes() {
     const tinygltf::Model& model = file_.model;
@@ -127,7 +149,7 @@ class SceneReader {
     const std::vector<int>& roots = model.scenes[scene].nodes;
     std::vector<Visit> visits;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-      visits.push_back({*root, scene_.root, glm::mat4(1.0f), 0});
+      visits.push_back({*root, scene_.root, glm::dmat4(1.0), 0});
     while (!visits.empty()) {
       const Visit visit = visits.back();
       visits.pop_back();
@@ -137,8 +159,8 @@ class SceneReader {
       if (placed_.contains(visit.index)) return file_.fail(name + " has two parents or is in a cycle");
       if (visit.depth > kDeepestNode) return file_.fail("the nodes are nested too deeply");
       const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(visit.index)];
-      WEFT_TRY(const glm::mat4 matrix, pose_.matrix(visit.index));
-      const glm::mat4 toWorld = visit.toWorld * matrix;
+      WEFT_TRY(const glm::dmat4 matrix, pose_.matrix(visit.index));
+      const glm::dmat4 toWorld = visit.toWorld * matrix;
       if (!isFinite(toWorld)) return file_.fail(name + " has a broken transform");
       const auto placed = visit.parent->addChild(std::make_shared<Transform>(matrix), node.name);
       placed_[visit.index] = {placed, toWorld};
@@ -172,10 +194,13 @@ class SceneReader {
     MeshPose pose{.morphWeights = pose_.morphWeights(index)};
     const auto instancing = node.extensions.find(kInstancingExtension);
     if (node.skin >= 0) {
-      WEFT_TRY(pose.joints, jointsOf(node.skin));
-      // A skin places its vertices in the world; glTF says not to heed where the node stands.
+      WEFT_TRY(const std::vector<glm::dmat4> joints, jointsOf(node.skin));
+      // A skin places its vertices in the world; glTF says not to heed where the node stands. As floats they
+      // must be near something: where the first joint puts the mesh's origin.
+      const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(joints.front()[3]));
+      for (const glm::dmat4& joint : joints) pose.joints.emplace_back(glm::inverse(place) * joint);
       WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));
-      addPrimitives(primitives, *scene_.root);
+      addPrimitives(primitives, *scene_.root->addChild(std::make_shared<Transform>(place)));
       if (instancing != node.extensions.end()) warn("a mesh with a skin is shown without its instances");
       return {};
     }
@@ -227,7 +252,7 @@ class SceneReader {
   }
 
   /// Vertex to world, for every joint of a skin.
-  Result<std::vector<glm::mat4>> jointsOf(int index) {
+  Result<std::vector<glm::dmat4>> jointsOf(int index) {
     const std::string name = "skin " + std::to_string(index);
     if (static_cast<std::size_t>(index) >= file_.model.skins.size())
       return file_.fail(name + " does not exist");
@@ -238,21 +263,21 @@ class SceneReader {
     }
     if (skin.joints.empty() || toJoint.size() < skin.joints.size())
       return file_.fail(name + " has no joints, or less matrices than joints");
-    std::vector<glm::mat4> joints;
+    std::vector<glm::dmat4> joints;
     for (std::size_t i = 0; i < skin.joints.size(); ++i) {
       const auto joint = placed_.find(skin.joints[i]);
       if (joint == placed_.end()) return file_.fail(name + " has a joint that is not in the scene");
-      joints.push_back(joint->second.toWorld * toJoint[i]);
+      joints.push_back(joint->second.toWorld * glm::dmat4(toJoint[i]));
     }
     return joints;
   }
 
-  Result<void> addCamera(const tinygltf::Node& node, const glm::mat4& toWorld) {
+  Result<void> addCamera(const tinygltf::Node& node, const glm::dmat4& toWorld) {
     const std::string index = std::to_string(node.camera);
     if (static_cast<std::size_t>(node.camera) >= file_.model.cameras.size())
       return file_.fail("camera " + index + " does not exist");
     const tinygltf::Camera& source = file_.model.cameras[static_cast<std::size_t>(node.camera)];
-    const std::optional<glm::mat4> view = viewOf(toWorld);
+    const std::optional<glm::dmat4> view = viewOf(toWorld);
     const std::optional<Camera> lens = lensOf(source);
     if (!view || !lens) return file_.fail("camera " + index + " is not a valid camera");
     Camera camera = *lens;
@@ -274,8 +299,9 @@ class SceneReader {
     for (GltfScene::NamedCamera& named : scene_.cameras) {
       Camera& camera = named.camera;
       if (camera.farPlane > 0.0f) continue;
-      const float distance = glm::distance(camera.position(), scene_.bounds.center());
-      camera.farPlane = std::max(distance + 1.01f * scene_.bounds.radius(), 2.0f * camera.nearPlane);
+      const double distance = glm::distance(camera.position(), scene_.bounds.center());
+      camera.farPlane =
+          std::max(static_cast<float>(distance + 1.01 * scene_.bounds.radius()), 2.0f * camera.nearPlane);
     }
   }
 

@@ -13,7 +13,7 @@ namespace weft {
 /// How a mesh stands: what its vertices are changed by when they are read.
 struct MeshPose {
   std::vector<float> morphWeights{};  ///< one a morph target; those left out are 0
-  std::vector<glm::mat4> joints{};    ///< of the skin, vertex to world; empty: not skinned
+  std::vector<glm::mat4> joints{};    ///< of the skin, of the vertices; empty: not skinned
 };
 
 /// What glTF says of lighting a primitive like this (glTF 2.0, 3.9.5).

@@ -147,7 +147,7 @@ Result<void> GltfPose::sample(const tinygltf::AnimationChannel& channel,
   return {};
 }
 
-Result<glm::mat4> GltfPose::matrix(int index) const {
+Result<glm::dmat4> GltfPose::matrix(int index) const {
   const tinygltf::Node& node = file_->model.nodes[static_cast<std::size_t>(index)];
   const auto failed = [&] {
     return file_->fail("node " + std::to_string(index) + " has a broken transform");
@@ -179,9 +179,8 @@ Result<glm::mat4> GltfPose::matrix(int index) const {
     matrix = glm::translate(matrix, translation) * glm::mat4_cast(glm::normalize(rotation));
     matrix = glm::scale(matrix, scale);
   }
-  const glm::mat4 rounded(matrix);
-  if (!isFinite(rounded)) return failed();
-  return rounded;
+  if (!isFinite(glm::mat4(matrix))) return failed();
+  return matrix;
 }
 
 std::vector<float> GltfPose::morphWeights(int index) const {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <glm/ext/matrix_double4x4.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/mat4x4.hpp>
 #include <map>
 #include <optional>
 #include <vector>
@@ -18,8 +18,8 @@ class GltfPose {
   /// Samples the animation that the options name. `file` must outlive this.
   static Result<GltfPose> create(const GltfFile& file, const GltfOptions& options);
 
-  /// Child to parent. Fails on what is no finite transform.
-  Result<glm::mat4> matrix(int node) const;
+  /// Child to parent. Fails on what floats cannot hold.
+  Result<glm::dmat4> matrix(int node) const;
   /// One weight a morph target of the node's mesh; may be too few, the others are 0.
   std::vector<float> morphWeights(int node) const;
 

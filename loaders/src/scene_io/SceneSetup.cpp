@@ -66,29 +66,37 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   return scene;
 }
 
+// The radius of a scene; a single point may have any.
+double sizeOf(const Bounds& bounds) {
+  return bounds.radius() > 0.0 ? bounds.radius() : 1.0;
+}
+
 // A camera at a place of its own, whose clipping planes enclose the scene.
 Camera cameraAt(const SceneOptions::PointOfView& viewpoint, const Bounds& bounds) {
-  const glm::vec3 direction = glm::normalize(viewpoint.target - viewpoint.eye);
-  const bool vertical = std::abs(direction.y) > 0.999f;
+  const glm::dvec3 direction = glm::normalize(viewpoint.target - viewpoint.eye);
+  const bool vertical = std::abs(direction.y) > 0.999;
   Camera camera =
-      Camera::lookAt(viewpoint.eye, viewpoint.target, vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0));
-  const float distance = glm::distance(viewpoint.eye, bounds.center());
-  const float radius = std::max(bounds.radius(), 1e-6f);
-  camera.farPlane = distance + 1.01f * radius;
-  camera.nearPlane = std::max(distance - 1.01f * radius, 1e-3f * camera.farPlane);
+      Camera::lookAt(viewpoint.eye, viewpoint.target, vertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
+  const double distance = glm::distance(viewpoint.eye, bounds.center());
+  const double radius = 1.01 * sizeOf(bounds);
+  camera.farPlane = static_cast<float>(distance + radius);
+  camera.nearPlane = std::max(static_cast<float>(distance - radius), 1e-3f * camera.farPlane);
   return camera;
 }
 
 // The cylinder that a scene does not leave when it turns.
 std::shared_ptr<Node> cylinderAround(const Bounds& bounds) {
-  const glm::vec3 half = bounds.maximum - bounds.center();
+  const glm::vec3 half = 0.5 * (bounds.maximum - bounds.minimum);
   Mesh cylinder = makeSphere(16);
   for (glm::vec3& p : cylinder.positions) {
     const glm::vec2 across(p.x, p.z);
     const glm::vec2 rim = across * (std::hypot(half.x, half.z) / std::max(glm::length(across), 1e-6f));
-    p = bounds.center() + glm::vec3(rim.x, std::copysign(half.y, p.y), rim.y);
+    p = glm::vec3(rim.x, std::copysign(half.y, p.y), rim.y);
   }
-  return std::make_shared<Node>(std::make_shared<Geometry>(std::make_shared<Mesh>(std::move(cylinder))));
+  const glm::dmat4 place = glm::translate(glm::dmat4(1.0), bounds.center());
+  auto node = std::make_shared<Node>(std::make_shared<Transform>(place));
+  node->addChild(std::make_shared<Geometry>(std::make_shared<Mesh>(std::move(cylinder))));
+  return node;
 }
 
 }  // namespace
@@ -131,18 +139,17 @@ Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
 
 // Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their colour.
 void SceneSetup::addLamps(const SceneOptions& options) {
-  const glm::vec3 center = scene_.bounds.center();
+  const glm::dvec3 center = scene_.bounds.center();
   std::vector<SceneOptions::Lamp> lamps = options.lamps;
   if (lamps.empty() && options.environment.empty() && scene_.lights == 0) {
-    const glm::mat3 toWorld = glm::transpose(glm::mat3(camera_.view));
+    const glm::dmat3 toWorld = glm::transpose(glm::dmat3(camera_.view));
     lamps.push_back(
-        {center + 4.0f * std::max(scene_.bounds.radius(), 1e-6f) * (toWorld * glm::vec3(-0.7f, 0.8f, 1.0f)),
-         glm::vec3(1.0f)});
+        {center + 4.0 * sizeOf(scene_.bounds) * (toWorld * glm::dvec3(-0.7, 0.8, 1.0)), glm::vec3(1.0f)});
   }
   for (const SceneOptions::Lamp& lamp : lamps) {
-    const glm::vec3 offset = lamp.place - center;
-    const glm::vec3 intensity = glm::pi<float>() * glm::dot(offset, offset) * lamp.color;
-    root_->addChild(std::make_shared<Transform>(glm::translate(glm::mat4(1.0f), lamp.place)))
+    const glm::dvec3 offset = lamp.place - center;
+    const glm::dvec3 intensity = glm::pi<double>() * glm::dot(offset, offset) * glm::dvec3(lamp.color);
+    root_->addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), lamp.place)))
         ->addChild(std::make_shared<PointLight>(intensity));
   }
 }
@@ -159,11 +166,11 @@ Result<void> SceneSetup::addEnvironment(const SceneOptions& options) {
   return {};
 }
 
-void SceneSetup::turn(float radians) {
-  const glm::vec3 center = scene_.bounds.center();
-  const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), radians, glm::vec3(0, 1, 0));
-  turn_->setMatrix(glm::translate(glm::mat4(1.0f), center) * turned *
-                   glm::translate(glm::mat4(1.0f), -center));
+void SceneSetup::turn(double radians) {
+  const glm::dvec3 center = scene_.bounds.center();
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), radians, glm::dvec3(0, 1, 0));
+  turn_->setMatrix(glm::translate(glm::dmat4(1.0), center) * turned *
+                   glm::translate(glm::dmat4(1.0), -center));
 }
 
 }  // namespace weft

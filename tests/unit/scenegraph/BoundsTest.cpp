@@ -24,14 +24,14 @@ TEST(Bounds, EncloseTransformedGeometry) {
   inner->addChild(plane);
   root.addChild(plane);  // the same core twice
   const Bounds bounds = boundsOf(root);
-  EXPECT_EQ(bounds.minimum, glm::vec3(-0.5f, -2.0f, 0.0f));
-  EXPECT_EQ(bounds.maximum, glm::vec3(11.0f, 2.0f, 0.0f));
-  EXPECT_EQ(bounds.center(), glm::vec3(5.25f, 0.0f, 0.0f));
+  EXPECT_EQ(bounds.minimum, glm::dvec3(-0.5, -2.0, 0.0));
+  EXPECT_EQ(bounds.maximum, glm::dvec3(11.0, 2.0, 0.0));
+  EXPECT_EQ(bounds.center(), glm::dvec3(5.25, 0.0, 0.0));
 }
 
 TEST(Bounds, OfNothingAreEmpty) {
   EXPECT_TRUE(boundsOf(Node()).empty());
-  EXPECT_EQ(boundsOf(Node()).radius(), 0.0f);
+  EXPECT_EQ(boundsOf(Node()).radius(), 0.0);
 }
 
 TEST(Frame, ShowsAllVerticesAndFillsThePicture) {
@@ -56,13 +56,15 @@ TEST(Frame, ShowsAllVerticesAndFillsThePicture) {
       // Both sides of the wider direction touch the margin, the other lies within it.
       EXPECT_NEAR(std::max(high.x, high.y), 1.0f / 1.06f, 1e-4f);
       EXPECT_NEAR(std::min(low.x, low.y), -1.0f / 1.06f, 1e-4f);
-      EXPECT_GT(glm::dot(camera.position() - glm::vec3(1, 2, 5), from), 0.0f);
+      EXPECT_GT(glm::dot(camera.position() - glm::dvec3(1, 2, 5), glm::dvec3(from)), 0.0);
     }
 }
 
 TEST(Frame, ShowsASinglePoint) {
   const auto point = std::make_shared<Mesh>();
   point->positions = {{3, 4, 5}};
+  point->indices = {0};
+  point->topology = Topology::Points;
   const Node root(std::make_shared<Geometry>(point));
   const Camera camera = frame(root, {1, 1, 1}, 1.0f);
   const glm::vec4 clip = camera.projection(1.0f) * camera.view * glm::vec4(3, 4, 5, 1);

@@ -13,8 +13,13 @@ namespace weft {
 namespace {
 
 struct Box {
-  glm::vec3 center, extent;
+  glm::dvec3 center;
+  glm::vec3 extent;
 };
+
+Frustum frustumOf(const Camera& camera, float aspect) {
+  return {camera.position(), camera.projection(aspect) * glm::dmat4(glm::dmat3(camera.view))};
+}
 
 /// How far the innermost corner is inside of the plane that it is least inside of, by going over all corners.
 double inside(const Box& box, const Frustum& frustum) {
@@ -23,7 +28,7 @@ double inside(const Box& box, const Frustum& frustum) {
     double innermost = -least;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const glm::dvec3 point = glm::dvec3(box.center) + glm::dvec3(side) * glm::dvec3(box.extent);
+      const glm::dvec3 point = box.center + glm::dvec3(side) * glm::dvec3(box.extent) - frustum.eye;
       const double distance = glm::dot(glm::dvec3(plane), point) + double(plane.w);
       innermost = corner == 0 ? distance : std::max(innermost, distance);
     }
@@ -60,7 +65,7 @@ TEST_F(BoxTableTest, FindsEveryBoxThatIsNotOutside) {
   std::size_t foundInAll = 0;
   for (int i = 0; i < 50; ++i) {
     const Camera camera = Camera::lookAt(point(15.0f), point(5.0f));
-    const Frustum frustum(camera.projection(between(0.5f, 2.0f)) * camera.view);
+    const Frustum frustum = frustumOf(camera, between(0.5f, 2.0f));
     std::vector<std::uint32_t> numbers;
     table.findInside(frustum, numbers);
     foundInAll += numbers.size();
@@ -81,8 +86,8 @@ TEST_F(BoxTableTest, FindsEveryBoxThatARayMeets) {
   fill(1000);
   for (int i = 0; i < 200; ++i) {
     const auto aim = static_cast<std::uint32_t>(random() % boxes.size());
-    const Ray ray{point(20.0f), glm::vec3(0.0f)};
-    const glm::vec3 target = boxes[aim].center + boxes[aim].extent * point(1.0f);
+    const Ray ray{point(20.0f)};
+    const glm::dvec3 target = boxes[aim].center + glm::dvec3(boxes[aim].extent * point(1.0f));
     std::vector<std::uint32_t> numbers;
     table.findMet({ray.origin, target - ray.origin}, numbers);
     EXPECT_EQ(std::find(numbers.begin(), numbers.end(), aim) != numbers.end(), !isGone(aim));
@@ -100,7 +105,7 @@ TEST_F(BoxTableTest, WhatIsNotANumberIsEverywhere) {
   table.update();
   std::vector<std::uint32_t> numbers;
   const Camera camera = Camera::lookAt({500, 0, 0}, {600, 0, 0});
-  table.findInside(Frustum(camera.projection(1.0f) * camera.view), numbers);
+  table.findInside(frustumOf(camera, 1.0f), numbers);
   EXPECT_NE(std::find(numbers.begin(), numbers.end(), 3u), numbers.end());
 }
 

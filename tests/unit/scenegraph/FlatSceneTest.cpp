@@ -13,7 +13,7 @@ namespace {
 using test::RandomTree;
 using test::Shown;
 
-std::map<const Node*, Shown> expected(const Node& root, glm::vec3 eye) {
+std::map<const Node*, Shown> expected(const Node& root, glm::dvec3 eye) {
   std::vector<Shown> shown;
   test::findShown(root, eye, {}, shown);
   std::map<const Node*, Shown> byNode;
@@ -25,15 +25,15 @@ void expectSame(const FlatObject& object, const FlatScene& scene, std::uint32_t 
   const auto& geometry = static_cast<const Geometry&>(shown.node->core());
   EXPECT_EQ(scene.meshes()[object.mesh].mesh, geometry.mesh());
   EXPECT_EQ(scene.materials()[object.material].material.get(), shown.material);
-  EXPECT_EQ(object.mirrored, glm::determinant(glm::mat3(shown.toWorld)) < 0.0f);
-  const glm::mat4 rows = glm::transpose(shown.toWorld);
-  for (int row = 0; row < 3; ++row) EXPECT_EQ(object.model.rows[row], rows[row]);
+  EXPECT_EQ(object.mirrored, glm::determinant(glm::dmat3(shown.toWorld)) < 0.0);
+  const glm::mat3 rows = glm::transpose(glm::dmat3(shown.toWorld));
+  for (int row = 0; row < 3; ++row) EXPECT_EQ(object.model.rows[row], glm::vec4(rows[row], 0.0f));
   EXPECT_EQ(scene.boxes().center(number),
-            glm::vec3(shown.toWorld * glm::vec4(geometry.bounds().center(), 1.0f)));
+            glm::dvec3(shown.toWorld * glm::dvec4(geometry.bounds().center(), 1.0)));
 }
 
 /// Compares the tables with a plain walk over the tree.
-void expectEqual(const Node& root, glm::vec3 eye) {
+void expectEqual(const Node& root, glm::dvec3 eye) {
   FlatScene& scene = FlatScene::of(root);
   const auto lock = scene.look();
   std::map<const Node*, Shown> shown = expected(root, eye);

@@ -26,7 +26,7 @@ double nearestByForce(const Node& root, const Ray& ray, const Node* only = nullp
     const Mesh& mesh = *geometry->mesh();
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       const auto corner = [&](std::size_t k) {
-        return glm::dvec3(each.toWorld * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f));
+        return glm::dvec3(each.toWorld * glm::dvec4(mesh.positions[mesh.indices[i + k]], 1.0));
       };
       const glm::dvec3 along = corner(1) - corner(0), across = corner(2) - corner(0);
       const glm::dvec3 p = glm::cross(direction, across);
@@ -68,8 +68,8 @@ TEST(Pick, FindsWhatTestingEveryTriangleFinds) {
       EXPECT_EQ(nearestByForce(tree.root(), ray, hit->path.back()), distance);
       EXPECT_EQ(hit->path.front(), &tree.root());
       for (std::size_t k = 1; k < hit->path.size(); ++k) EXPECT_EQ(hit->path[k]->parent(), hit->path[k - 1]);
-      const glm::vec3 position = ray.origin + glm::normalize(ray.direction) * hit->distance;
-      EXPECT_LT(glm::distance(hit->position, position), 1e-4f * (1.0f + hit->distance));
+      const glm::dvec3 position = ray.origin + glm::normalize(ray.direction) * hit->distance;
+      EXPECT_LT(glm::distance(hit->position, position), 1e-4 * (1.0 + hit->distance));
       tree.change();
     }
   }
@@ -96,8 +96,8 @@ TEST(Pick, TellsTextureCoordinatesDistanceAndTheWayThere) {
   const auto hit = pick(root, {{1, 1.5f, 7}, {0, 0, -2}});
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->path, (std::vector<const Node*>{&root, right.get(), instance.get()}));
-  EXPECT_FLOAT_EQ(hit->distance, 10.0f);
-  EXPECT_EQ(hit->position, glm::vec3(1, 1.5f, -3));
+  EXPECT_DOUBLE_EQ(hit->distance, 10.0);
+  EXPECT_EQ(hit->position, glm::dvec3(1, 1.5, -3));
   // (1, 1.5) lies at (-0.25, 0.375) of the plane; v runs down.
   EXPECT_NEAR(hit->texcoord.x, 0.25f, 1e-6f);
   EXPECT_NEAR(hit->texcoord.y, 0.125f, 1e-6f);
@@ -144,14 +144,14 @@ TEST(Pick, SeesWhatSwitchesAndLevelsOfDetailShow) {
   levels->addChild(moved({0, 0, -1}), "coarse")->addChild(plane());
   const auto distance = [&](float z) {
     const auto hit = pick(root, {{0.1f, 0.2f, z}, {0, 0, -1}});
-    return hit ? hit->distance : -1.0f;
+    return hit ? hit->distance : -1.0;
   };
-  EXPECT_FLOAT_EQ(distance(4), 2.0f);
+  EXPECT_DOUBLE_EQ(distance(4), 2.0);
   choice->setChoice(1);
-  EXPECT_FLOAT_EQ(distance(4), 4.0f);
-  EXPECT_FLOAT_EQ(distance(6), 7.0f);
+  EXPECT_DOUBLE_EQ(distance(4), 4.0);
+  EXPECT_DOUBLE_EQ(distance(6), 7.0);
   choice->setChoice(Switch::kNone);
-  EXPECT_FLOAT_EQ(distance(6), -1.0f);
+  EXPECT_DOUBLE_EQ(distance(6), -1.0);
 }
 
 TEST(Pick, RaysOfACameraGoThroughTheirPixels) {
@@ -160,10 +160,10 @@ TEST(Pick, RaysOfACameraGoThroughTheirPixels) {
     camera.orthographicHeight = height;
     for (const glm::vec2 place : {glm::vec2(0.5f, 0.5f), glm::vec2(0, 0), glm::vec2(0.9f, 0.2f)}) {
       const Ray ray = Ray::through(camera, place, 1.5f);
-      const glm::vec4 clip =
-          camera.projection(1.5f) * camera.view * glm::vec4(ray.origin + 3.0f * ray.direction, 1);
-      EXPECT_NEAR(clip.x / clip.w, 2 * place.x - 1, 1e-4f);
-      EXPECT_NEAR(clip.y / clip.w, 1 - 2 * place.y, 1e-4f);
+      const glm::dvec4 clip =
+          camera.projection(1.5f) * camera.view * glm::dvec4(ray.origin + 3.0 * ray.direction, 1);
+      EXPECT_NEAR(clip.x / clip.w, 2 * place.x - 1, 1e-4);
+      EXPECT_NEAR(clip.y / clip.w, 1 - 2 * place.y, 1e-4);
     }
   }
 }

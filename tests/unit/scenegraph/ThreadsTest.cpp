@@ -56,7 +56,7 @@ TEST(Threads, BuildTheBranchesOfOneTreeFromSharedCores) {
   EXPECT_EQ(objectsBelow(root), 4u * 170);
   cores.place->setMatrix(glm::mat4(1));
   EXPECT_EQ(objectsBelow(root), 4u * 170);
-  EXPECT_EQ(boundsOf(root).maximum, glm::vec3(0.5f, 0.5f, 0.0f)) << "a shared core moves all its nodes";
+  EXPECT_EQ(boundsOf(root).maximum, glm::dvec3(0.5, 0.5, 0.0)) << "a shared core moves all its nodes";
 
   // And let them go again, all at once.
   for (auto& branch : branches) branch = root.removeChild(*branch);
@@ -77,7 +77,7 @@ TEST(Threads, BuildTreesWhileAnotherThatSharesTheirCoresIsLookedAt) {
     do {
       const auto hit = pick(root, {{0.1f, 0.2f, 1}, {0, 0, -1}});
       ASSERT_TRUE(hit);
-      EXPECT_FLOAT_EQ(hit->distance, 2.0f);
+      EXPECT_DOUBLE_EQ(hit->distance, 2.0);
     } while (!built);
   });
   builder.join();

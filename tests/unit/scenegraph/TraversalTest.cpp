@@ -27,7 +27,7 @@ std::shared_ptr<Node> smallTree() {
 std::string seen(const std::map<std::string, Visit>& wishes, bool& finished) {
   std::string names;
   const std::shared_ptr<const Node> root = smallTree();
-  finished = traverse(*root, [&](const Node& node, const glm::mat4&) {
+  finished = traverse(*root, [&](const Node& node, const glm::dmat4&) {
     names += node.name();
     const auto wish = wishes.find(node.name());
     return wish == wishes.end() ? Visit::Continue : wish->second;
@@ -61,7 +61,7 @@ TEST(Traversal, KnowsWhereNodesAre) {
       std::make_shared<Transform>(glm::translate(glm::mat4(1), glm::vec3(0, 3, 0))));
   root.addChild(std::make_shared<Group>());
   std::vector<glm::vec3> origins;
-  traverse(root, [&](const Node&, const glm::mat4& toWorld) {
+  traverse(root, [&](const Node&, const glm::dmat4& toWorld) {
     origins.emplace_back(toWorld[3]);
     return Visit::Continue;
   });
@@ -71,13 +71,13 @@ TEST(Traversal, KnowsWhereNodesAre) {
 TEST(Traversal, MayChangeWhatItSees) {
   const auto root = smallTree();
   const auto geometryless = std::make_shared<Group>();
-  traverse(*root, [&](Node& node, const glm::mat4&) {
+  traverse(*root, [&](Node& node, const glm::dmat4&) {
     if (node.name() == "b") node.removeChild(*node.children().front());
     if (node.name() == "e") node.addChild(geometryless, "g");
     return Visit::Continue;
   });
   std::string names;
-  traverse(*root, [&](const Node& node, const glm::mat4&) {
+  traverse(*root, [&](const Node& node, const glm::dmat4&) {
     names += node.name();
     return Visit::Continue;
   });
@@ -89,7 +89,7 @@ TEST(Traversal, GoesAnyDepth) {
   Node* deepest = &root;
   for (int i = 0; i < 100000; ++i) deepest = deepest->addChild(std::make_shared<Group>()).get();
   std::size_t count = 0;
-  traverse(root, [&](const Node&, const glm::mat4&) {
+  traverse(root, [&](const Node&, const glm::dmat4&) {
     ++count;
     return Visit::Continue;
   });

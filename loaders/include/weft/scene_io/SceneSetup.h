@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/ext/vector_double3.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -19,12 +20,12 @@ namespace weft {
 /// What to look at, from where, in which light.
 struct SceneOptions {
   struct PointOfView {
-    glm::vec3 eye;
-    glm::vec3 target;
+    glm::dvec3 eye;
+    glm::dvec3 target;
   };
   /// A point light under which white at the scene's centre that faces it shows `color`.
   struct Lamp {
-    glm::vec3 place;
+    glm::dvec3 place;
     glm::vec3 color;
   };
 
@@ -57,7 +58,7 @@ class SceneSetup {
   const GltfScene& scene() const { return scene_; }
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
   /// Turns the scene around its vertical axis, counter-clockwise seen from above; lights and camera stay.
-  void turn(float radians);
+  void turn(double radians);
 
  private:
   explicit SceneSetup(GltfScene scene);

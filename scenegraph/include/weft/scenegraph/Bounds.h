@@ -1,29 +1,34 @@
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <glm/ext/vector_double3.hpp>
 #include <limits>
 
 #include "weft/scenegraph/Camera.h"
+#include "weft/scenegraph/Mesh.h"
 #include "weft/scenegraph/Node.h"
 
 namespace weft {
 
 /// An axis-aligned box around points; empty until the first is included.
 struct Bounds {
-  glm::vec3 minimum{std::numeric_limits<float>::infinity()};
-  glm::vec3 maximum{-std::numeric_limits<float>::infinity()};
+  glm::dvec3 minimum{std::numeric_limits<double>::infinity()};
+  glm::dvec3 maximum{-std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(minimum.x <= maximum.x); }
-  glm::vec3 center() const { return 0.5f * (minimum + maximum); }
+  glm::dvec3 center() const { return 0.5 * (minimum + maximum); }
   /// Half of the diagonal: the radius of a sphere around the box.
-  float radius() const;
-  void include(glm::vec3 point);
+  double radius() const;
+  void include(glm::dvec3 point);
 };
 
-/// Around every vertex of every Geometry below `root`, in the coordinates in which `root` stands.
+/// Around the vertices that the mesh's triangles, lines or points have.
+Bounds boundsOf(const Mesh& mesh);
+
+/// Around what can be seen of the geometries below `root`, in the coordinates in which `root` stands: not
+/// around what a Switch hides, nor what a scale of 0 leaves no area. All levels of a LOD count.
 Bounds boundsOf(const Node& root);
 
-/// The nearest camera that sees every vertex below `root`, with a small margin, from the direction `from`
+/// The nearest camera that sees all of boundsOf()'s vertices, with a small margin, from the direction `from`
 /// (need not be unit), with near and far planes that enclose them. There must be something to see. `aspect`:
 /// width / height of the picture.
 Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalFieldOfView = 0.5f);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <glm/ext/vector_double3.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
@@ -13,8 +13,8 @@ namespace weft {
 /// Where a ray meets a triangle.
 struct Hit {
   std::vector<const Node*> path;  ///< from the root down to the node of the geometry
-  float distance = 0.0f;          ///< from the ray's origin, in the root's units
-  glm::vec3 position{0.0f};       ///< in the coordinates in which the root stands
+  double distance = 0.0;          ///< from the ray's origin, in the root's units
+  glm::dvec3 position{0.0};       ///< in the coordinates in which the root stands
   glm::vec2 texcoord{0.0f};       ///< of Mesh::texcoords, interpolated
   std::size_t triangle = 0;       ///< its number in the mesh
 };

@@ -1,24 +1,26 @@
 #pragma once
 
-#include <glm/mat4x4.hpp>
+#include <glm/ext/matrix_double4x4.hpp>
 
 #include "weft/scenegraph/NodeCore.h"
 
 namespace weft {
 
 /// Places everything below it: child to parent coordinates, column vectors, last row (0, 0, 0, 1).
+///
+/// Matrices of floats become doubles, in which those of nested nodes are multiplied.
 class Transform : public NodeCore {
  public:
-  explicit Transform(const glm::mat4& childToParent = glm::mat4(1.0f)) : matrix_(childToParent) {}
+  explicit Transform(const glm::dmat4& childToParent = glm::dmat4(1.0)) : matrix_(childToParent) {}
 
-  const glm::mat4& matrix() const { return matrix_; }
-  void setMatrix(const glm::mat4& childToParent) {
+  const glm::dmat4& matrix() const { return matrix_; }
+  void setMatrix(const glm::dmat4& childToParent) {
     matrix_ = childToParent;
     changed();
   }
 
  private:
-  glm::mat4 matrix_;
+  glm::dmat4 matrix_;
 };
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <concepts>
-#include <glm/mat4x4.hpp>
+#include <glm/ext/matrix_double4x4.hpp>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -27,7 +27,7 @@ enum class Visit {
 template <class Root, class Visitor>
 requires std::same_as<std::remove_const_t<Root>, Node>
 bool traverse(Root& root, Visitor visitor) {
-  std::vector<std::pair<Root*, glm::mat4>> ahead{{&root, glm::mat4(1.0f)}};
+  std::vector<std::pair<Root*, glm::dmat4>> ahead{{&root, glm::dmat4(1.0)}};
   while (!ahead.empty()) {
     auto [node, toWorld] = ahead.back();
     ahead.pop_back();
