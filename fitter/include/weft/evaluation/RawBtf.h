@@ -5,8 +5,8 @@
 
 #include "weft/core/HemisphereTriangulation.h"
 #include "weft/core/Result.h"
-#include "weft/fitter/FieldFit.h"
 #include "weft/measurement/BtfSource.h"
+#include "weft/measurement/Crop.h"
 
 namespace weft {
 
