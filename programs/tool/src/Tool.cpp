@@ -162,10 +162,6 @@ Result<void> Tool::checkOutput(const std::filesystem::path& file) const {
   return checkOutputFile(file, data_->inputs);
 }
 
-void Tool::warn(const std::string& message) const {
-  data_->printError(message);
-}
-
 Progress Tool::progress(std::string label, double amount, std::string unit) const {
   if (data_->quiet) return {};
   auto printer = std::make_shared<ProgressPrinter>(std::move(label), amount, std::move(unit),
