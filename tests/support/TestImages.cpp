@@ -1,6 +1,7 @@
 #include "TestImages.h"
 
 #include <gtest/gtest.h>
+#include <png.h>
 #include <zip.h>
 
 #include <algorithm>
@@ -29,6 +30,23 @@ Image imageOf(int width, int height, const std::function<int(int, int, int)>& va
     for (int x = 0; x < width; ++x)
       for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = static_cast<std::uint8_t>(value(x, y, c));
   return image;
+}
+
+Bytes widePng(int width, int height, const std::function<int(int, int, int)>& value) {
+  std::vector<std::uint16_t> words;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) words.push_back(static_cast<std::uint16_t>(value(x, y, c)));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(width);
+  png.height = static_cast<png_uint_32>(height);
+  png.format = PNG_FORMAT_LINEAR_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  Bytes bytes(size);
+  EXPECT_NE(png_image_write_to_memory(&png, bytes.data(), &size, 0, words.data(), 0, nullptr), 0);
+  bytes.resize(size);
+  return bytes;
 }
 
 void zipFolder(const fs::path& folder, const fs::path& zip, bool deflate) {

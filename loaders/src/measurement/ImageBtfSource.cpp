@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstring>
 #include <new>
 
 #include "weft/core/Contract.h"
@@ -25,18 +24,26 @@ std::size_t batchStride(std::size_t imageBytes) {
 }
 
 // `images[pair * imageStride + texel * 3 + rgb]` to `out[texel * texelStride + pair * 3 + rgb]`.
-void transpose(const std::uint8_t* images, std::size_t imageStride, std::size_t pairs, std::size_t texels,
-               std::uint8_t* out, std::size_t texelStride) {
+template <class Value, class Sample, class Convert>
+void transpose(const Value* images, std::size_t imageStride, std::size_t pairs, std::size_t texels,
+               Sample* out, std::size_t texelStride, const Convert& convert) {
   constexpr std::size_t kTileTexels = 64;
   tbb::parallel_for(std::size_t{0}, (texels + kTileTexels - 1) / kTileTexels, [=](std::size_t tile) {
     const std::size_t end = std::min((tile + 1) * kTileTexels, texels);
     for (std::size_t texel = tile * kTileTexels; texel < end; ++texel) {
-      const std::uint8_t* from = images + texel * 3;
-      std::uint8_t* to = out + texel * texelStride;
-      for (std::size_t pair = 0; pair < pairs; ++pair)
-        std::memcpy(to + pair * 3, from + pair * imageStride, 3);
+      const Value* from = images + texel * 3;
+      Sample* to = out + texel * texelStride;
+      for (std::size_t pair = 0; pair < pairs; ++pair, to += 3, from += imageStride)
+        for (std::size_t c = 0; c < 3; ++c) to[c] = convert(from[c]);
     }
   });
+}
+
+std::vector<float> linearWords(Encoding encoding) {
+  std::vector<float> linear(65536);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    linear[i] = decode(encoding, static_cast<float>(i) / 65535.0f);
+  return linear;
 }
 
 }  // namespace
@@ -57,7 +64,8 @@ Result<std::unique_ptr<BtfSource>> ImageBtfSource::create(BtfDescription descrip
   WEFT_TRY_VOID(decodeImage(bytes, source->whereOf(first)));
   source->description_.width = header.size.width;
   source->description_.height = header.size.height;
-  source->description_.storedAsBytes = true;
+  source->description_.storedAsBytes = !header.wide;
+  if (header.wide) source->linearOfWord_ = linearWords(source->description_.encoding);
   source->description_.cosineInData = true;  // photographs of an irradiated surface
   return source;
 }
@@ -70,25 +78,38 @@ Result<void> ImageBtfSource::readRows(int firstRow, int rowCount, SampleRows& ou
   const BtfDescription& d = description_;
   WEFT_EXPECT(firstRow >= 0 && rowCount > 0 && firstRow + rowCount <= d.height, "the rows exist");
   WEFT_TRY_VOID(out.allocate(d, rowCount));
-  const std::size_t imageBytes = d.texels() * 3;
-  const std::size_t stride = batchStride(imageBytes);
-  const std::size_t pairsAtOnce = std::clamp<std::size_t>(kBatchBytes / stride, 1, out.pairs());
-  const std::unique_ptr<std::uint8_t[]> batch(new (std::nothrow) std::uint8_t[pairsAtOnce * stride]);
+  if (d.storedAsBytes)
+    return readSamples<std::uint8_t>(firstRow, rowCount, out.bytes().data(),
+                                     [](std::uint8_t value) { return value; });
+  const float* linear = linearOfWord_.data();
+  return readSamples<std::uint16_t>(firstRow, rowCount, out.floats().data(),
+                                    [=](std::uint16_t value) { return linear[value]; });
+}
+
+template <class Value, class Sample, class Convert>
+Result<void> ImageBtfSource::readSamples(int firstRow, int rowCount, Sample* out,
+                                         const Convert& convert) const {
+  const BtfDescription& d = description_;
+  const std::size_t imageValues = d.texels() * 3;
+  const std::size_t stride = batchStride(imageValues * sizeof(Value)) / sizeof(Value);
+  const std::size_t pairs = fileOfPair_.size();
+  const std::size_t pairsAtOnce = std::clamp<std::size_t>(kBatchBytes / (stride * sizeof(Value)), 1, pairs);
+  const std::unique_ptr<Value[]> batch(new (std::nothrow) Value[pairsAtOnce * stride]);
   if (!batch) return fail("there is no memory for decoded images", where_);
 
   const std::size_t width = static_cast<std::size_t>(d.width);
-  const std::uint8_t* rows = batch.get() + static_cast<std::size_t>(firstRow) * width * 3;
-  for (std::size_t first = 0; first < out.pairs(); first += pairsAtOnce) {
-    const std::size_t count = std::min(pairsAtOnce, out.pairs() - first);
+  const Value* rows = batch.get() + static_cast<std::size_t>(firstRow) * width * 3;
+  for (std::size_t first = 0; first < pairs; first += pairsAtOnce) {
+    const std::size_t count = std::min(pairsAtOnce, pairs - first);
     WEFT_TRY_VOID(parallelTry(static_cast<int>(count), [&](int index) -> Result<void> {
       const std::size_t i = static_cast<std::size_t>(index);
       const int file = fileOfPair_[first + i];
       WEFT_TRY(const std::vector<std::uint8_t> bytes, files_->read(file));
-      return decodePhotograph(bytes, {d.width, d.height}, std::span(batch.get() + i * stride, imageBytes),
+      return decodePhotograph(bytes, {d.width, d.height}, std::span(batch.get() + i * stride, imageValues),
                               whereOf(file));
     }));
-    transpose(rows, stride, count, static_cast<std::size_t>(rowCount) * width, out.bytes().data() + first * 3,
-              out.pairs() * 3);
+    transpose(rows, stride, count, static_cast<std::size_t>(rowCount) * width, out + first * 3, pairs * 3,
+              convert);
   }
   return {};
 }

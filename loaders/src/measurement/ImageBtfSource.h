@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// A BTF with one 8-bit image a pair of directions.
+/// A BTF with one image a pair of directions, all read with as many bits as the first: 8, or 16.
 class ImageBtfSource : public BtfSource {
  public:
   /// `description` lacks the size, which the first image has; `fileOfPair[view][light]` are indices into
@@ -25,10 +25,14 @@ class ImageBtfSource : public BtfSource {
   ImageBtfSource() = default;
 
   std::string whereOf(int file) const;
+  /// All pairs of some rows to `out`, by way of decoded images of such values.
+  template <class Value, class Sample, class Convert>
+  Result<void> readSamples(int firstRow, int rowCount, Sample* out, const Convert& convert) const;
 
   BtfDescription description_;
   std::unique_ptr<FileCollection> files_;
   std::vector<int> fileOfPair_;
+  std::vector<float> linearOfWord_;  ///< of 16-bit images
   std::string where_;
 };
 

@@ -252,6 +252,47 @@ TEST(BtfSource, ReadsGreyImagesAsRgb) {
   EXPECT_EQ(test::linearSample(rows, 2, 0, 0), glm::vec3(1.0f));
 }
 
+// As they are stored, encoded like 8 bits, whatever the file says of gamma; an image of 8 bits among them
+// too.
+TEST(BtfSource, KeepsAllBitsOfWideImages) {
+  const fs::path folder = test::testFolder();
+  test::writeBytes(folder / "tl000_pl000_tv000_pv000.png",
+                   test::widePng(2, 2, [](int x, int y, int c) { return 20000 + 10 * x + 100 * y + c; }));
+  requireDone(writePng(folder / "tl030_pl000_tv000_pv000.png",
+                       test::imageOf(2, 2, [](int x, int y, int c) { return 80 + 3 * (2 * y + x) + c; })));
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
+  EXPECT_FALSE(source->description().storedAsBytes);
+  const SampleRows rows = test::allRows(*source);
+  const auto expectStored = [&](std::size_t pair, glm::vec3 stored) {
+    const glm::vec3 linear = test::linearSample(rows, 1, 1, pair), expected = decode(Encoding::Srgb, stored);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(linear[c], expected[c], 1e-6f) << pair;
+  };
+  expectStored(0, glm::vec3(20110, 20111, 20112) / 65535.0f);
+  expectStored(1, glm::vec3(89, 90, 91) / 255.0f);
+}
+
+// Of the same scene, seen by a camera that was held otherwise.
+TEST(BtfSource, TurnsPhotographsAsTheirExifSays) {
+  const fs::path folder = test::testFolder();
+  const auto bright = [](int x, int y) { return x < 8 && y < 16 ? 200 : 40; };  // the upper left of 16 x 32
+  const Image upright = test::imageOf(16, 32, [&](int x, int y, int) { return bright(x, y); });
+  const Image lying = test::imageOf(32, 16, [&](int x, int y, int) { return bright(15 - y, x); });
+  test::Bytes turned = valueOf(encodeJpeg(lying, 95));
+  const test::Bytes exif{0xff, 0xe1, 0, 34, 'E', 'x', 'i', 'f', 0, 0, 'M', 'M', 0, 42, 0, 0, 0, 8,
+                         0,    1,    1, 18, 0,   3,   0,   0,   0, 1, 0,   6,   0, 0,  0, 0, 0, 0};
+  turned.insert(turned.begin() + 2, exif.begin(), exif.end());
+  test::writeBytes(folder / "tl000 pl000 tv000 pv000.jpg", turned);
+  test::writeBytes(folder / "tl030 pl000 tv000 pv000.jpg", valueOf(encodeJpeg(upright, 95)));
+  const std::unique_ptr<BtfSource> source = valueOf(openBtf(folder));
+  ASSERT_EQ(source->description().width, 16);
+  ASSERT_EQ(source->description().height, 32);
+  const SampleRows rows = test::allRows(*source);
+  for (const int y : {2, 13, 18, 29})
+    for (const int x : {2, 13})
+      EXPECT_NEAR(test::linearSample(rows, x, y, 0).x, test::linearSample(rows, x, y, 1).x, 0.02f)
+          << x << ' ' << y;
+}
+
 TEST(BtfSource, RefusesWhatIsNotThere) {
   EXPECT_THAT(errorOfOpening("/no/such/cloth.zip"), HasSubstr("/no/such/cloth.zip: no such file"));
 }
@@ -298,10 +339,10 @@ TEST(BtfSource, RefusesWhatIsNoImage) {
   const fs::path folder = makeFolder();
   test::writeBytes(anImageOf(folder), {'n', 'o', 't', ' ', 'a', 'n', ' ', 'i', 'm', 'a', 'g', 'e'});
   EXPECT_THAT(errorOfReading(folder),
-              HasSubstr("tl075_pl345_tv030_pv090.png: this is neither a JPEG nor a PNG"));
+              HasSubstr("tl075_pl345_tv030_pv090.png: this is a text, not a JPEG or PNG"));
   test::writeBytes(anImageOf(folder), {});
   EXPECT_THAT(errorOfReading(folder),
-              HasSubstr("tl075_pl345_tv030_pv090.png: this is neither a JPEG nor a PNG"));
+              HasSubstr("tl075_pl345_tv030_pv090.png: this is an empty file, not a JPEG or PNG"));
 }
 
 TEST(BtfSource, RefusesATruncatedImage) {

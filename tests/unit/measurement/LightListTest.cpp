@@ -200,9 +200,9 @@ TEST(LightList, NamesTheImageThatCannotBeRead) {
   EXPECT_THAT(errorOfReading(),
               HasSubstr("dirs.lp: b.png: the image has 3 x 3 pixels, the others have 3 x 2"));
   test::writeBytes(list.parent_path() / "b.png", {'n', 'o'});
-  EXPECT_THAT(errorOfReading(), HasSubstr("dirs.lp: b.png: this is neither a JPEG nor a PNG"));
+  EXPECT_THAT(errorOfReading(), HasSubstr("dirs.lp: b.png: this is a text, not a JPEG or PNG image"));
   test::writeBytes(list.parent_path() / "a.png", {'n', 'o'});
-  EXPECT_THAT(errorOfOpening(list), HasSubstr("dirs.lp: a.png: this is neither a JPEG nor a PNG"));
+  EXPECT_THAT(errorOfOpening(list), HasSubstr("dirs.lp: a.png: this is a text, not a JPEG or PNG image"));
 }
 
 // Every list of RealRTI; light vectors of item 11 are .80 to 1.06 long, and one of item 7 lies below the
