@@ -93,11 +93,18 @@ Texels texelsOf(const Image& image, const TextureOptions& options) {
   return texels;
 }
 
+Texels texelsOf(const WideImage& image, const TextureOptions&) {
+  return {wordFormat(image.channels), image.width, image.height, 1, image.words.data(), {}};
+}
+
 bool isEmpty(const FloatImage& image) {
   return image.empty();
 }
 bool isEmpty(const Image& image) {
   return image.bytes.empty();
+}
+bool isEmpty(const WideImage& image) {
+  return image.words.empty();
 }
 
 /// What the shape asks of the image; a caller who breaks it could only get a wrong picture.
@@ -108,13 +115,21 @@ void expectFits(const TextureOptions& options, const FloatImage& image) {
   WEFT_EXPECT(options.shape != TextureShape::Cube || (image.layers() == 6 && image.width() == image.height()),
               "a cube texture has six square layers");
 }
-void expectFits(const TextureOptions& options, const Image& image) {
+/// An Image or WideImage of so many values.
+template <class AnyWidth>
+void expectFlat(const TextureOptions& options, const AnyWidth& image, std::size_t values) {
   WEFT_EXPECT(options.shape != TextureShape::Cube, "a cube texture has six square layers");
   WEFT_EXPECT(image.channels >= 1 && image.channels <= 4, "a texture has 1 to 4 channels");
-  WEFT_EXPECT(image.bytes.size() == static_cast<std::size_t>(image.width) *
-                                        static_cast<std::size_t>(image.height) *
-                                        static_cast<std::size_t>(image.channels),
-              "an image has width x height x channels bytes");
+  WEFT_EXPECT(values == static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                            static_cast<std::size_t>(image.channels),
+              "an image has width x height x channels values");
+}
+void expectFits(const TextureOptions& options, const Image& image) {
+  expectFlat(options, image, image.bytes.size());
+}
+void expectFits(const TextureOptions& options, const WideImage& image) {
+  WEFT_EXPECT(!options.srgb, "GL has no sRGB of 16 bits");
+  expectFlat(options, image, image.words.size());
 }
 
 int levelsOf(const TextureOptions& options, const Texels& texels) {
@@ -175,6 +190,11 @@ TextureChunk::TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptio
 }
 
 TextureChunk::TextureChunk(std::shared_ptr<const Image> image, TextureOptions options) : options_(options) {
+  replaceImage(std::move(image));
+}
+
+TextureChunk::TextureChunk(std::shared_ptr<const WideImage> image, TextureOptions options)
+    : options_(options) {
   replaceImage(std::move(image));
 }
 

@@ -10,15 +10,16 @@ struct FormatRow {
   GLenum channels;
   GLenum byte;
   GLenum srgb;  ///< 0: GL has none
+  GLenum word;
   GLenum half;
   GLenum single;
 };
 
 constexpr FormatRow kFormats[] = {
-    {GL_RED, GL_R8, 0, GL_R16F, GL_R32F},
-    {GL_RG, GL_RG8, 0, GL_RG16F, GL_RG32F},
-    {GL_RGB, GL_RGB8, GL_SRGB8, GL_RGB16F, GL_RGB32F},
-    {GL_RGBA, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16F, GL_RGBA32F},
+    {GL_RED, GL_R8, 0, GL_R16, GL_R16F, GL_R32F},
+    {GL_RG, GL_RG8, 0, GL_RG16, GL_RG16F, GL_RG32F},
+    {GL_RGB, GL_RGB8, GL_SRGB8, GL_RGB16, GL_RGB16F, GL_RGB32F},
+    {GL_RGBA, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16, GL_RGBA16F, GL_RGBA32F},
 };
 
 const FormatRow& row(int channels) {
@@ -35,6 +36,10 @@ TextureFormat floatFormat(Precision precision, int channels) {
 
 TextureFormat byteFormat(int channels) {
   return {row(channels).byte, row(channels).channels, GL_UNSIGNED_BYTE};
+}
+
+TextureFormat wordFormat(int channels) {
+  return {row(channels).word, row(channels).channels, GL_UNSIGNED_SHORT};
 }
 
 TextureFormat srgbFormat(int channels) {

@@ -16,6 +16,7 @@ struct TextureFormat {
 /// `channels` is 1..4.
 TextureFormat floatFormat(Precision precision, int channels);
 TextureFormat byteFormat(int channels);
+TextureFormat wordFormat(int channels);
 /// `channels` is 3 or 4.
 TextureFormat srgbFormat(int channels);
 

@@ -121,6 +121,20 @@ TEST_F(TextureChunkTest, ByteFormatsAreSizedAndComeBackExactly) {
     }
 }
 
+TEST_F(TextureChunkTest, WordFormatsAreSizedAndComeBackExactly) {
+  constexpr GLint kFormats[] = {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16};
+  for (int channelCount = 1; channelCount <= 4; ++channelCount) {
+    auto image = std::make_shared<WideImage>(WideImage{7, 5, channelCount, {}});
+    for (int i = 0; i < 35 * channelCount; ++i) image->words.push_back(static_cast<std::uint16_t>(467 * i));
+    const TextureChunk chunk(std::shared_ptr<const WideImage>(image), {.filter = TextureFilter::Mipmapped});
+    activate(chunk);
+    const GLuint texture = bound(GL_TEXTURE_BINDING_2D);
+    EXPECT_EQ(levelParameter(texture, GL_TEXTURE_INTERNAL_FORMAT), kFormats[channelCount - 1]);
+    EXPECT_EQ(readBack<std::uint16_t>(texture, channelCount, GL_UNSIGNED_SHORT, image->words.size()),
+              image->words);
+  }
+}
+
 TEST_F(TextureChunkTest, SamplingOptionsReachTheTexture) {
   const auto image = values(8, 4, 1, 1, Precision::Float);
   const TextureChunk chunk(image, {.filter = TextureFilter::Mipmapped, .wrap = TextureWrap::Repeat});
