@@ -1,10 +1,12 @@
 #include "weft/scenegraph/Bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/matrix_double4x4.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -16,6 +18,37 @@
 
 namespace weft {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double distanceToSegment(const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 along = b - a;
+  const double squared = glm::dot(along, along);
+  const double place = squared > 0.0 ? std::clamp(-glm::dot(a, along) / squared, 0.0, 1.0) : 0.0;
+  return glm::length(a + place * along);
+}
+
+/// From the origin to the plane of a triangle, if that is where the triangle is nearest; infinity otherwise.
+double distanceToInside(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const bool above = glm::dot(glm::cross(a, b), normal) > 0.0 && glm::dot(glm::cross(b, c), normal) > 0.0 &&
+                     glm::dot(glm::cross(c, a), normal) > 0.0;
+  return above ? std::abs(glm::dot(normal, a)) / glm::length(normal) : kInfinity;
+}
+
+double distanceToMesh(const Mesh& mesh, const glm::dmat4& fromPoint) {
+  const std::size_t count = verticesPer(mesh.topology);
+  double least = kInfinity;
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i + count <= mesh.indices.size(); i += count) {
+    for (std::size_t k = 0; k < count; ++k)
+      corners[k] = glm::dvec3(fromPoint * glm::dvec4(mesh.positions[mesh.indices[i + k]], 1.0));
+    for (std::size_t k = 0; k < count; ++k)
+      least = std::min(least, distanceToSegment(corners[k], corners[(k + 1) % count]));
+    if (count == 3) least = std::min(least, distanceToInside(corners[0], corners[1], corners[2]));
+  }
+  return least;
+}
 
 /// Shows a function the vertices that are not left over, each once.
 template <class See>
@@ -45,15 +78,21 @@ bool leavesSomething(const glm::dmat3& matrix, Topology topology) {
 }
 
 template <class See>
-void forEachSeenVertex(const Node& root, See see) {
+void forEachSeenMesh(const Node& root, See see) {
   traverse(root, [&](const Node& node, const glm::dmat4& toWorld) {
     if (&node != &root && isHiddenBySwitch(node)) return Visit::Skip;
     const auto* geometry = dynamic_cast<const Geometry*>(&node.core());
     if (geometry && leavesSomething(glm::dmat3(toWorld), geometry->mesh()->topology))
-      forEachUsedVertex(*geometry->mesh(), [&](const glm::dvec3& position) {
-        see(glm::dvec3(toWorld * glm::dvec4(position, 1.0)));
-      });
+      see(*geometry->mesh(), toWorld);
     return Visit::Continue;
+  });
+}
+
+template <class See>
+void forEachSeenVertex(const Node& root, See see) {
+  forEachSeenMesh(root, [&](const Mesh& mesh, const glm::dmat4& toWorld) {
+    forEachUsedVertex(
+        mesh, [&](const glm::dvec3& position) { see(glm::dvec3(toWorld * glm::dvec4(position, 1.0))); });
   });
 }
 
@@ -80,6 +119,15 @@ Bounds boundsOf(const Node& root) {
   return bounds;
 }
 
+double distanceTo(const Node& root, const glm::dvec3& point) {
+  const glm::dmat4 fromPoint = glm::translate(glm::dmat4(1.0), -point);
+  double least = kInfinity;
+  forEachSeenMesh(root, [&](const Mesh& mesh, const glm::dmat4& toWorld) {
+    least = std::min(least, distanceToMesh(mesh, fromPoint * toWorld));
+  });
+  return least;
+}
+
 Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalFieldOfView) {
   WEFT_EXPECT(glm::length(from) > 0.0f && aspect > 0.0f, "a picture has a direction and an area");
   const glm::dvec3 back = glm::normalize(glm::dvec3(from));
@@ -94,9 +142,8 @@ Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalField
   // (e.z
   // - p.z), and likewise for y: two planes a side, of which the outermost vertices decide.
   std::optional<glm::dvec3> origin;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 high(-infinity), low(-infinity);
-  double nearest = -infinity, farthest = infinity;
+  glm::dvec2 high(-kInfinity), low(-kInfinity);
+  double nearest = -kInfinity, farthest = kInfinity;
   forEachSeenVertex(root, [&](const glm::dvec3& vertex) {
     if (!origin) origin = vertex;
     const glm::dvec3 p = toCamera * (vertex - *origin);

@@ -71,16 +71,28 @@ double sizeOf(const Bounds& bounds) {
   return bounds.radius() > 0.0 ? bounds.radius() : 1.0;
 }
 
+// The cosine of the angle between the middle of a picture and its corner.
+double cosineOfCorner(const Camera& camera, float aspect) {
+  const double y = std::tan(0.5 * double{camera.verticalFieldOfView}), x = y * double{aspect};
+  return 1.0 / std::sqrt(1.0 + x * x + y * y);
+}
+
 // A camera at a place of its own, whose clipping planes enclose the scene.
-Camera cameraAt(const SceneOptions::PointOfView& viewpoint, const Bounds& bounds) {
+Camera cameraAt(const SceneOptions& options, const GltfScene& scene) {
+  const SceneOptions::PointOfView& viewpoint = *options.viewpoint;
   const glm::dvec3 direction = glm::normalize(viewpoint.target - viewpoint.eye);
   const bool vertical = std::abs(direction.y) > 0.999;
   Camera camera =
       Camera::lookAt(viewpoint.eye, viewpoint.target, vertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
-  const double distance = glm::distance(viewpoint.eye, bounds.center());
-  const double radius = 1.01 * sizeOf(bounds);
-  camera.farPlane = static_cast<float>(distance + radius);
-  camera.nearPlane = std::max(static_cast<float>(distance - radius), 1e-3f * camera.farPlane);
+  const double distance = glm::distance(viewpoint.eye, scene.bounds.center());
+  const double radius = 1.01 * sizeOf(scene.bounds);
+  const double far = distance + radius;
+  // Within a scene what is nearest decides, if it stands still and does not touch the eye.
+  const double nearest = options.turns ? 0.0 : distanceTo(*scene.root, viewpoint.eye);
+  const double near = nearest > 1e-8 * far ? 0.9 * nearest * cosineOfCorner(camera, options.aspect)
+                                           : std::max(distance - radius, 1e-4 * far);
+  camera.nearPlane = static_cast<float>(std::min(near, 0.999 * far));
+  camera.farPlane = static_cast<float>(far);
   return camera;
 }
 
@@ -118,7 +130,7 @@ Result<SceneSetup> SceneSetup::create(const SceneOptions& options) {
 
 Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
   if (options.viewpoint) {
-    camera_ = cameraAt(*options.viewpoint, scene_.bounds);
+    camera_ = cameraAt(options, scene_);
     return {};
   }
   for (const GltfScene::NamedCamera& named : scene_.cameras)

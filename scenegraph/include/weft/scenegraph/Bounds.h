@@ -28,6 +28,10 @@ Bounds boundsOf(const Mesh& mesh);
 /// around what a Switch hides, nor what a scale of 0 leaves no area. All levels of a LOD count.
 Bounds boundsOf(const Node& root);
 
+/// From a point to the nearest triangle, line or point of what boundsOf() encloses: how far away a near plane
+/// may be. Infinity where there is nothing.
+double distanceTo(const Node& root, const glm::dvec3& point);
+
 /// The nearest camera that sees all of boundsOf()'s vertices, with a small margin, from the direction `from`
 /// (need not be unit), with near and far planes that enclose them. There must be something to see. `aspect`:
 /// width / height of the picture.
