@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,10 @@ void GLAPIENTRY onDebugMessage(GLenum source, GLenum type, GLuint, GLenum severi
 }  // namespace
 
 GLContext::GLContext() {
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   limits_.textureSize = integer(GL_MAX_TEXTURE_SIZE);
+  limits_.targetSize = std::min({limits_.textureSize, viewport[0], viewport[1]});
   limits_.textureLayers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
   limits_.volumeSize = integer(GL_MAX_3D_TEXTURE_SIZE);
   limits_.cubeSize = integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_int2.hpp>
 #include <utility>
 #include <vector>
 
@@ -11,24 +15,13 @@ namespace weft {
 
 namespace {
 
+constexpr GLenum kDepthFormat = GL_DEPTH_COMPONENT32F;
+
 struct TargetObjects {
   GLTexture color;
   GLTexture depth;
   GLFramebuffer framebuffer;
 };
-
-GLenum colorFormat(Precision precision) {
-  return precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F;
-}
-
-/// Asks without an error; a driver may still run out of memory later.
-bool allows(GLenum format, int width, int height) {
-  GLint granted = 0;
-  glTexImage2D(GL_PROXY_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, GL_FLOAT,
-               nullptr);
-  glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &granted);
-  return granted == width;
-}
 
 GLTexture makeImage(GLenum format, int width, int height) {
   GLuint name = 0;
@@ -37,19 +30,56 @@ GLTexture makeImage(GLenum format, int width, int height) {
   return GLTexture(name);
 }
 
+GLenum colorFormat(Precision precision) {
+  return precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F;
+}
+
+/// Whether GL says that it can hold an image.
+bool fits(GLenum format, glm::ivec2 size) {
+  const GLenum channels = format == kDepthFormat ? GL_DEPTH_COMPONENT : GL_RGBA;
+  glTexImage2D(GL_PROXY_TEXTURE_2D, 0, static_cast<GLint>(format), size.x, size.y, 0, channels, GL_FLOAT,
+               nullptr);
+  GLint width = 0;
+  glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+  return width != 0;
+}
+
+bool fits(const GLLimits& limits, Precision precision, glm::ivec2 size) {
+  return std::max(size.x, size.y) <= limits.targetSize && fits(colorFormat(precision), size) &&
+         fits(kDepthFormat, size);
+}
+
+/// About the largest picture of the same shape that fits.
+glm::ivec2 largestLike(const GLLimits& limits, Precision precision, glm::ivec2 size) {
+  const auto scaled = [&](double scale) { return glm::max(glm::ivec2(scale * glm::dvec2(size)), 1); };
+  double low = 0.0, high = 1.0;
+  for (int step = 0; step < 12; ++step) {
+    const double middle = 0.5 * (low + high);
+    (fits(limits, precision, scaled(middle)) ? low : high) = middle;
+  }
+  return scaled(low);
+}
+
 /// False where the driver has no memory for it.
-bool make(TargetObjects& objects, Precision precision, int width, int height) {
+bool make(TargetObjects& objects, Precision precision, glm::ivec2 size) {
+  // What GL says of missing memory would be told instead of what we do.
+  const GLboolean tells = glIsEnabled(GL_DEBUG_OUTPUT);
+  glDisable(GL_DEBUG_OUTPUT);
   TargetObjects made;
-  made.color = makeImage(colorFormat(precision), width, height);
-  made.depth = makeImage(GL_DEPTH_COMPONENT32F, width, height);
+  made.color = makeImage(colorFormat(precision), size.x, size.y);
+  made.depth = makeImage(kDepthFormat, size.x, size.y);
   made.framebuffer = createGL<GLFramebuffer>(glCreateFramebuffers);
   glNamedFramebufferTexture(made.framebuffer, GL_COLOR_ATTACHMENT0, made.color, 0);
   glNamedFramebufferTexture(made.framebuffer, GL_DEPTH_ATTACHMENT, made.depth, 0);
   // Every OpenGL 4.5 can render to these formats, so that only storage can be missing.
-  if (glCheckNamedFramebufferStatus(made.framebuffer, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    return false;
-  objects = std::move(made);
-  return true;
+  const bool complete =
+      glCheckNamedFramebufferStatus(made.framebuffer, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  if (complete)
+    objects = std::move(made);
+  else
+    while (glGetError() != GL_NO_ERROR) continue;
+  if (tells) glEnable(GL_DEBUG_OUTPUT);
+  return complete;
 }
 
 }  // namespace
@@ -62,23 +92,22 @@ RenderTarget::RenderTarget(int width, int height, Precision precision)
 Result<void> RenderTarget::prepare(GLContext& context) const {
   auto& objects = context.objectsOf<TargetObjects>(owner_);
   if (objects.framebuffer) return {};
-  const int limit = context.limits().textureSize;
-  if (width_ > limit || height_ > limit)
-    return fail(fmt::format("a picture of {} x {} is larger than the {} x {} that this OpenGL allows", width_,
-                            height_, limit, limit),
-                {}, "make the picture smaller");
-  const bool wasWell = !context.failed();
-  if (allows(colorFormat(precision_), width_, height_) && make(objects, precision_, width_, height_))
-    return {};
-  if (wasWell) (void)context.takeErrors();  // GL's own words for it
-  const double pixelBytes = precision_ == Precision::Half ? 8.0 : 16.0;
-  return fail(fmt::format("OpenGL has no memory for a picture of {} x {}, {:.1f} GiB", width_, height_,
-                          pixelBytes * width_ * height_ / (1 << 30)),
-              {}, "make the picture smaller");
+  const glm::ivec2 size(width_, height_);
+  const char* kind = precision_ == Precision::Half ? "half floats" : "floats";
+  if (!fits(context.limits(), precision_, size)) {
+    const glm::ivec2 largest = largestLike(context.limits(), precision_, size);
+    return fail(
+        fmt::format("a picture of {} x {} pixels of {} is larger than the {} x {} that this OpenGL allows",
+                    width_, height_, kind, largest.x, largest.y));
+  }
+  if (make(objects, precision_, size)) return {};
+  return fail(
+      fmt::format("OpenGL has no memory for a picture of {} x {} pixels of {}", width_, height_, kind), {},
+      "make the picture smaller");
 }
 
 void RenderTarget::bindAndClear(GLContext& context, const glm::vec4& background) const {
-  if (auto made = prepare(context); !made) return context.report(std::move(made.error()));
+  if (auto prepared = prepare(context); !prepared) return context.report(std::move(prepared.error()));
   const auto& objects = context.objectsOf<TargetObjects>(owner_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects.framebuffer);
   glViewport(0, 0, width_, height_);

@@ -17,7 +17,8 @@ namespace weft {
 
 /// What a GL implementation can hold, in texels and bytes.
 struct GLLimits {
-  int textureSize = 0;  ///< width and height of 2D textures, arrays and render targets
+  int textureSize = 0;  ///< width and height of 2D textures and arrays
+  int targetSize = 0;   ///< width and height of what is drawn into
   int textureLayers = 0;
   int volumeSize = 0;
   int cubeSize = 0;

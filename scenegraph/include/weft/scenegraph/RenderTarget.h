@@ -13,18 +13,18 @@ namespace weft {
 /// renders into it.
 class RenderTarget {
  public:
-  /// Sizes must be positive; one too large for the GL or its memory is reported to the context.
+  /// Sizes must be positive.
   RenderTarget(int width, int height, Precision precision = Precision::Half);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Makes its images in a context, which bindAndClear() does too: for those who want to say in their own
-  /// words that a picture is too large for the GL or its memory.
+  /// Makes the picture in the context, which bindAndClear() otherwise does. Fails where it is larger than GL
+  /// allows or has memory for, and says how large one of this shape may be.
   Result<void> prepare(GLContext& context) const;
 
   /// Makes it the place that is drawn to, over its whole area, and clears it to linear RGBA; unbind() ends
-  /// that.
+  /// that. What prepare() fails on is reported to the context.
   void bindAndClear(GLContext& context, const glm::vec4& background) const;
   static void unbind();
 
