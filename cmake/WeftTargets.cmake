@@ -77,5 +77,6 @@ function(weft_test name folder)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARGN} weft_test_support GTest::gmock GTest::gtest_main weft_options)
   target_compile_options(${name} PRIVATE ${WEFT_LIGHT_OPTIMISATION})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 300 ENVIRONMENT LIBGL_ALWAYS_SOFTWARE=true)
 endfunction()

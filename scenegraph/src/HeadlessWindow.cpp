@@ -4,18 +4,20 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <vector>
+
+#include "EglPlace.h"
 
 namespace weft {
 
 namespace {
 
-bool hasExtension(EGLDisplay display, std::string_view name) {
-  const char* list = eglQueryString(display, EGL_EXTENSIONS);
-  if (!list) return false;
-  std::string_view extensions(list);
+bool contains(const char* list, std::string_view name) {
+  std::string_view extensions(list ? list : "");
   while (!extensions.empty()) {
     const std::size_t length = std::min(extensions.find(' '), extensions.size());
     if (extensions.substr(0, length) == name) return true;
@@ -24,22 +26,47 @@ bool hasExtension(EGLDisplay display, std::string_view name) {
   return false;
 }
 
-std::vector<EGLDisplay> headlessDisplays() {
-  std::vector<EGLDisplay> displays;
-  if (hasExtension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-    displays.push_back(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+bool hasExtension(EGLDisplay display, std::string_view name) {
+  return contains(eglQueryString(display, EGL_EXTENSIONS), name);
+}
 
+/// The devices of all vendors.
+std::vector<EGLDeviceEXT> devices() {
   const auto queryDevices =
       reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
-  std::array<EGLDeviceEXT, 16> devices{};
+  std::array<EGLDeviceEXT, 64> found{};
   EGLint count = 0;
-  if (hasExtension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") && queryDevices &&
-      queryDevices(static_cast<EGLint>(devices.size()), devices.data(), &count)) {
-    for (EGLint i = 0; i < count; ++i)
-      displays.push_back(
-          eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
-  }
-  return displays;
+  if (!hasExtension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") || !queryDevices ||
+      !queryDevices(static_cast<EGLint>(found.size()), found.data(), &count))
+    return {};
+  return {found.begin(), found.begin() + count};
+}
+
+bool isSoftware(EGLDeviceEXT device) {
+  const auto queryString =
+      reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
+  return queryString && contains(queryString(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+std::vector<EglPlace> places() {
+  std::vector<EglPlace> found;
+  if (hasExtension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+    found.push_back({EglPlace::Kind::Surfaceless});
+  for (const EGLDeviceEXT device : devices())
+    found.push_back({isSoftware(device) ? EglPlace::Kind::SoftwareDevice : EglPlace::Kind::Card, device});
+  return found;
+}
+
+/// Whether Mesa is told to draw in software; then so are all.
+bool softwareIsAskedFor() {
+  const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  return value && *value && std::string_view("0nNfF").find(*value) == std::string_view::npos;
+}
+
+EGLDisplay displayAt(const EglPlace& place) {
+  if (place.kind == EglPlace::Kind::Surfaceless)
+    return eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  return eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, place.device, nullptr);
 }
 
 EGLContext createContext(EGLDisplay display, bool debug) {
@@ -62,7 +89,8 @@ EGLContext createContext(EGLDisplay display, bool debug) {
 }  // namespace
 
 Result<std::unique_ptr<HeadlessWindow>> HeadlessWindow::create(bool debug) {
-  for (const EGLDisplay display : headlessDisplays()) {
+  for (const EglPlace& place : inOrderOfTrying(places(), softwareIsAskedFor())) {
+    const EGLDisplay display = displayAt(place);
     const EGLContext eglContext = createContext(display, debug);
     if (eglContext == EGL_NO_CONTEXT) continue;
     std::unique_ptr<HeadlessWindow> window(new HeadlessWindow(display, eglContext));

@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// An OpenGL 4.5 core context without a window or a default framebuffer, through EGL: on the surfaceless
-/// platform, or else on the first device that gives one.
+/// An OpenGL 4.5 core context without a window or a default framebuffer, through EGL: on the first card that
+/// gives one, else in software, with Mesa. The environment's LIBGL_ALWAYS_SOFTWARE=1 leaves cards alone.
 ///
 /// Several can live side by side; use each on one thread at a time, after makeCurrent().
 class HeadlessWindow {
