@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MeasurementInput.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/report/Comparison.h"
@@ -21,11 +22,13 @@ struct Arguments {
   std::vector<int> crop;
   std::string space = "linear";
   double memoryGibibytes = 4.0;
+  BtfOptions measurement;
   FitOptions fit;
 };
 
 void addOptions(CLI::App& app, Arguments& a) {
-  app.add_option("INPUT", a.input, "a folder or zip of angle-named images")->required();
+  app.add_option("INPUT", a.input, kMeasurementHelp)->required();
+  addMeasurementOptions(app, a.measurement);
   app.add_option("-o", a.output, "the folder for index.html, compare.json and the fits")->required();
   app.add_option("--models", a.models, "what to compare, separated by commas")
       ->delimiter(',')
@@ -51,7 +54,8 @@ void addOptions(CLI::App& app, Arguments& a) {
 Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
   const std::filesystem::path& folder = arguments.output;
   WEFT_TRY(std::vector<ModelDescription> models, comparedModels(arguments.models));
-  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
+  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
+  tellWarnings(tool, arguments.input, source->description());
   std::optional<Crop> crop;
   if (arguments.crop.size() == 4)
     crop = Crop{arguments.crop[0], arguments.crop[1], arguments.crop[2], arguments.crop[3]};

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
+#include "MeasurementInput.h"
 #include "weft/core/Direction.h"
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/io/ExrFile.h"
@@ -21,6 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::filesystem::path field;
   std::filesystem::path measurement;
+  BtfOptions options;
   std::vector<int> crop;
   double memoryGibibytes = 4.0;
   std::filesystem::path report;
@@ -32,7 +34,8 @@ struct Arguments {
 void addOptions(Tool& tool, Arguments& a) {
   CLI::App& app = tool.options();
   app.add_option("FIELD", a.field, "a .rf.exr")->required();
-  app.add_option("--against", a.measurement, "the measurement: a folder or zip of angle-named images");
+  app.add_option("--against", a.measurement, fmt::format("the measurement: {}", kMeasurementHelp));
+  addMeasurementOptions(app, a.options);
   app.add_option("--crop", a.crop, "the texels that were fitted: X Y W H, from the top left")->expected(4);
   app.add_option("--memory", a.memoryGibibytes, "GiB for the samples that are compared at once")
       ->check(CLI::Range(0.0625, 1024.0))
@@ -65,7 +68,8 @@ Result<void> writeImage(const ReflectanceField& field, const Arguments& argument
 }
 
 Result<void> compare(const Tool& tool, const ReflectanceField& field, const Arguments& arguments) {
-  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.measurement));
+  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.measurement, arguments.options));
+  tellWarnings(tool, arguments.measurement, source->description());
   std::optional<Crop> crop;
   if (arguments.crop.size() == 4)
     crop = Crop{arguments.crop[0], arguments.crop[1], arguments.crop[2], arguments.crop[3]};

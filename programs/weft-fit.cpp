@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MeasurementInput.h"
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/ReflectanceFieldFile.h"
@@ -32,12 +33,14 @@ struct Arguments {
   double memoryGibibytes = 4.0;
   double maximumError = 0.0;  // 0: no bound
   std::filesystem::path report;
+  BtfOptions measurement;
   FitOptions fit;
 };
 
 void addOptions(Tool& tool, Arguments& a) {
   CLI::App& app = tool.options();
-  app.add_option("INPUT", a.input, "a folder or zip of angle-named images")->required();
+  app.add_option("INPUT", a.input, kMeasurementHelp)->required();
+  addMeasurementOptions(app, a.measurement);
   tool.addOutput("-o", a.output, "the .rf.exr to write")->required();
   app.add_option("--model", a.fit.model.name,
                  "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
@@ -136,8 +139,9 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   WEFT_TRY(const auto model, ModelRegistry::builtin().create(options.model));
   if (arguments.cosine == "out" && model->containsCosine())
     return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");
-  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input));
+  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
   const BtfDescription& measured = source->description();
+  if (group.rank() == 0) tellWarnings(tool, arguments.input, measured);
   const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
                                                 static_cast<std::size_t>(options.crop->height)
                                           : measured.texels();

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MeasurementInput.h"
+#include "weft/core/FileKind.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/tool/Tool.h"
@@ -36,23 +38,25 @@ Json describe(const weft::ReflectanceField& field) {
           {"height", field.height()},
           {"views", field.description().views.size()},
           {"lights", description.lights.size()},
-          {"encoding", weft::name(weft::Encoding::Linear)},
+          {"encoding", weft::name(description.encoding)},
           {"has_cosine", description.hasCosine},
           {"precision", field.shared().precision() == weft::Precision::Half ? "half" : "float"},
           {"model", modelJson},
           {"fit", description.fitReport.empty() ? Json() : Json::parse(description.fitReport)}};
 }
 
-weft::Result<Json> describeFile(const std::filesystem::path& file) {
+weft::Result<Json> describeFile(const weft::Tool& tool, const std::filesystem::path& file,
+                                const weft::BtfOptions& options) {
   Json json;
   Json bytes = Json::object();
-  if (file.extension() == ".exr") {
+  if (file.extension() == ".exr" || weft::fileKind(file) == weft::FileKind::Exr) {
     WEFT_TRY(const weft::ReflectanceField field,
              weft::readReflectanceField(file, weft::ModelRegistry::builtin()));
     json = describe(field);
     bytes["gpu"] = weft::gpuBytes(field);
   } else {
-    WEFT_TRY(const std::unique_ptr<weft::BtfSource> btf, weft::openBtf(file));
+    WEFT_TRY(const std::unique_ptr<weft::BtfSource> btf, weft::openBtf(file, options));
+    weft::tellWarnings(tool, file, btf->description());
     json = describe(btf->description());
   }
   if (Json size = weft::fileBytes(file); !size.is_null()) bytes["file"] = std::move(size);
@@ -79,11 +83,13 @@ int main(int argc, char** argv) {
   weft::Tool tool({"weft-info", "Says what a measured BTF or a fitted reflectance field is.",
                    "weft-info wool.rf.exr --json -", WEFT_VERSION});
   std::filesystem::path file;
+  weft::BtfOptions options;
   tool.options()
-      .add_option("FILE", file, "a folder or zip of angle-named images, an .lp with its images, or a .rf.exr")
+      .add_option("FILE", file, fmt::format("{}, or a .rf.exr", weft::kMeasurementHelp))
       ->required();
+  weft::addMeasurementOptions(tool.options(), options);
   return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {
-    WEFT_TRY(const Json json, describeFile(file));
+    WEFT_TRY(const Json json, describeFile(tool, file, options));
     tool.print(linesOf(json, ""));
     WEFT_TRY_VOID(tool.writeJson(json));
     return weft::ExitCode::Done;

@@ -108,8 +108,8 @@ TEST(WeftInfo, DescribesALightList) {
       {"height", 2},        {"views", 1},         {"lights", 1},
       {"encoding", "srgb"}, {"has_cosine", true}, {"bytes", {{"file", fs::file_size(list)}}}};
   EXPECT_EQ(json::parse(run.out), expected);
-  std::ofstream(list) << "2\na.png 0 0 2\n";
-  expectRefused(runProgram("weft-info", {list}), "coin.lp: line 1 counts 2 lights, 1 are listed");
+  std::ofstream(list) << "3\na.png 0 0 2\n";
+  expectRefused(runProgram("weft-info", {list}), "coin.lp: line 1 counts 3 lights, 1 are listed");
 }
 
 TEST(WeftInfo, DescribesAReflectanceField) {
@@ -132,6 +132,45 @@ TEST(WeftInfo, DescribesAReflectanceField) {
   EXPECT_EQ(info.at("bytes").at("gpu"), 5 * 7 * 8 * (1 + 3 * 2));
 }
 
+TEST(WeftInfo, SaysTheEncodingOfTheFile) {
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "ptm"}));
+  ReflectanceFieldDescription about;
+  about.views = about.lights = {{0, 0, 1}};
+  about.hasCosine = true;
+  about.encoding = Encoding::Srgb;
+  const fs::path file = test::testFolder() / "coin.rf.exr";
+  requireDone(writeReflectanceField(
+      valueOf(ReflectanceField::create(model, about, FloatImage(2, 2, model->sharedChannels()),
+                                       FloatImage(2, 2, model->layerChannels(), 1))),
+      file));
+  const json info = json::parse(runProgram("weft-info", {file, "--json", "-"}).out);
+  EXPECT_EQ(info.at("encoding"), "srgb");
+  EXPECT_EQ(info.at("has_cosine"), true);
+}
+
+// Also of a field that is not named as one.
+TEST(WeftInfo, ToldByTheFirstBytesWhatAFileIs) {
+  const fs::path field = fieldFile();
+  fs::rename(field, field.parent_path() / "grey.field");
+  EXPECT_THAT(runProgram("weft-info", {field.parent_path() / "grey.field"}).out,
+              HasSubstr("reflectance field"));
+}
+
+TEST(WeftInfo, TellsWhatOfAMeasurementIsNotAsItSays) {
+  const fs::path folder = test::testFolder();
+  requireDone(writePng(folder / "a.png", Image(3, 2, 3)));
+  const fs::path list = folder / "coin.lp";
+  std::ofstream(list) << "1\nIMG_1.CR2 0 0 1\n";
+  expectRefused(runProgram("weft-info", {list}), "coin.lp, line 2: there is no image 'IMG_1.CR2'");
+  EXPECT_EQ(runProgram("weft-info", {list, "--in-order"}).exitCode, 0);
+  std::ofstream(list) << "1\na.CR2 0 0 1\n";
+  const ProgramRun run = runProgram("weft-info", {list, "--quiet"});
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.err,
+            "weft-info: " + list.string() +
+                ": images are taken whose names differ from the list's in the extension: a.png for a.CR2\n");
+}
+
 TEST(WeftInfo, OpenExrsOwnToolUnderstandsAReflectanceField) {
   const ProgramRun run = runProgram("/usr/bin/exrheader", {fieldFile()});
   EXPECT_EQ(run.exitCode, 0);
@@ -151,7 +190,7 @@ TEST(WeftInfo, RefusesBadInput) {
   std::ofstream(folder / "text.rf.exr") << "hello";
   expectRefused(infoOn(folder / "text.rf.exr"), "text.rf.exr: not an OpenEXR file");
   std::ofstream(folder / "text.zip") << "hello";
-  expectRefused(infoOn(folder / "text.zip"), "text.zip: not a complete zip");
+  expectRefused(infoOn(folder / "text.zip"), "text.zip: this is a text, not a measurement");
   std::ofstream(folder / "tl000_pl000_tv000_pv000.jpg") << "hello";
   expectRefused(infoOn(folder), "tl000_pl000_tv000_pv000.jpg: this is neither a JPEG nor a PNG");
   EXPECT_FALSE(fs::exists(report));

@@ -18,8 +18,7 @@ namespace {
 Result<void> checkIsMeasurement(const fs::path& file) {
   const FileKind kind = fileKind(file);
   if (kind == FileKind::Zip || kind == FileKind::Unknown) return {};  // programs may precede a zip
-  return failOtherKind(kind, "a measurement: a folder or zip of images, or a light list (.lp)",
-                       file.string());
+  return failOtherKind(kind, "a measurement", file.string());
 }
 
 Result<std::unique_ptr<FileCollection>> openFiles(const fs::path& path, bool isFolder) {

@@ -109,9 +109,9 @@ Result<std::optional<int>> findLightList(const FileCollection& files, const std:
     if (deeper == 0) other = names[i];
   }
   if (isOnly) return found;
-  return fail(
-      fmt::format("there are two light lists, '{}' and '{}'", names[static_cast<std::size_t>(*found)], other),
-      where, "give the one that is meant");
+  return fail(fmt::format("there is more than one light list: '{}', '{}'",
+                          names[static_cast<std::size_t>(*found)], other),
+              where, "give the one that is meant");
 }
 
 Result<std::unique_ptr<BtfSource>> openLightList(const fs::path& path, std::string name,

@@ -28,7 +28,7 @@ TEST(InputKind, IsNamedByTheFirstBytes) {
   for (const auto& [bytes, name] : cases)
     for (const std::string file : {"cloth.zip", "cloth.rti", "cloth"})
       EXPECT_THAT(errorOfOpening(writeList(folder / file, bytes)),
-                  HasSubstr(file + ": this is " + name + ", not a measurement: a folder or zip of images"));
+                  HasSubstr(file + ": this is " + name + ", not a measurement"));
   EXPECT_THAT(errorOfOpening(writeList(folder / "dirs.lp", "PK\3\4")),
               HasSubstr("dirs.lp: this is a zip, not a light list"));
   EXPECT_THAT(errorOfOpening(writeList(folder / "cloth.zip", "\1\2\3")),

@@ -139,7 +139,7 @@ TEST(LightList, AFolderWithOneListIsThatList) {
   EXPECT_EQ(imagesOf(*source), (std::vector{10, 20}));
   EXPECT_EQ(source->description().name, folder.filename());
   fs::copy(list, folder / "again.LP");
-  EXPECT_THAT(errorOfOpening(folder), HasSubstr("there are two light lists, 'again.LP' and 'dirs.lp'"));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("there is more than one light list: 'again.LP', 'dirs.lp'"));
   fs::remove(folder / "again.LP");
   writeImage(folder / "tl015_pl000_tv000_pv000.png", 40);
   EXPECT_EQ(imagesOf(*valueOf(openBtf(folder))), std::vector{40});
