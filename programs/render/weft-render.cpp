@@ -11,6 +11,7 @@
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "SceneArguments.h"
 #include "weft/core/ToneMapping.h"
@@ -20,6 +21,7 @@
 #include "weft/scenegraph/HeadlessWindow.h"
 #include "weft/scenegraph/RenderAction.h"
 #include "weft/tool/ShaderCache.h"
+#include "weft/tool/ThreadCheck.h"
 #include "weft/tool/Tool.h"
 
 namespace {
@@ -28,6 +30,7 @@ using namespace weft;
 
 constexpr int kSupersampling = 2;
 constexpr int kLargestSide = 8192;
+constexpr unsigned kMostMesaThreads = 16;  // that draw, beside one or two with other work
 constexpr double kLargestExposure = 60.0;
 // Linear; 0x28 of 255 in sRGB.
 const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
@@ -151,6 +154,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
   for (const std::string& warning : setup.warnings()) tool.warn(warning);
 
+  WEFT_TRY_VOID(checkThreads(std::min(std::thread::hardware_concurrency(), kMostMesaThreads) + 2));
   WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
   GLContext& context = window->context();
   RenderAction renderer;

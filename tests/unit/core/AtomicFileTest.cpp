@@ -130,7 +130,7 @@ TEST(AtomicFile, TakesTheLongestNames) {
   EXPECT_EQ(textOf(target), "text");
 }
 
-TEST(AtomicFile, RefusesSocketsAndWriteProtectedFiles) {
+TEST(AtomicFile, RefusesSockets) {
   const fs::path folder = test::testFolder();
   sockaddr_un address{AF_UNIX, "socket"};
   const int server = socket(AF_UNIX, SOCK_STREAM, 0);
@@ -141,10 +141,24 @@ TEST(AtomicFile, RefusesSocketsAndWriteProtectedFiles) {
   close(server);
   EXPECT_THAT(refusal(folder / "socket"), HasSubstr("the output is a socket"));
   EXPECT_TRUE(fs::is_socket(folder / "socket"));
-  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+}
+
+// Root may everything, so it becomes somebody else.
+TEST(AtomicFileDeathTest, RefusesWhatMayNotBeWrittenOrSearched) {
+  const fs::path folder = test::testFolder();
   write(folder / "locked.txt", "old");
   fs::permissions(folder / "locked.txt", fs::perms::owner_read);
-  EXPECT_THAT(refusal(folder / "locked.txt"), HasSubstr("Permission denied"));
+  fs::create_directory(folder / "closed");
+  fs::permissions(folder / "closed", fs::perms::none);
+  const auto asAnother = [&] {
+    constexpr uid_t kNobody = 65534;
+    if (geteuid() == 0 && setuid(kNobody) != 0) _exit(1);
+    for (const fs::path& target : {folder / "locked.txt", folder / "closed" / "out.txt"})
+      if (!refusal(target).ends_with("Permission denied")) _exit(2);
+    _exit(7);
+  };
+  EXPECT_EXIT(asAnother(), testing::ExitedWithCode(7), "");
+  fs::permissions(folder / "closed", fs::perms::owner_all);
 }
 
 TEST(AtomicFile, FollowsSymbolicLinks) {
