@@ -72,17 +72,17 @@ struct GltfScene {
 };
 
 /// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, meshes of every kind of primitive
-/// (morphed and skinned as they stand at the time that the options name), lights (KHR_lights_punctual),
-/// perspective cameras, materials.
+/// (morphed and skinned as they stand at the time that the options name; instanced; packed with Draco or
+/// meshoptimizer, where this build has them), lights (KHR_lights_punctual), cameras, materials.
 ///
 /// A material with `WEFT_materials_btf` (`uri` of a .rf.exr beside the file, `scale`) becomes a BTFMaterial,
-/// any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular without textures, _unlit,
+/// any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular, _pbrSpecularGlossiness, _unlit,
 /// KHR_texture_transform; two of a primitive's sets of texture coordinates). Normals and tangents that a file
-/// leaves out are generated. An image that is missing or broken is left out with a warning.
+/// leaves out are generated. An image or a .rf.exr that is missing or broken is left out with a warning.
 ///
-/// Files are not trusted: everything is checked against its bounds. Fails, with file and reason, on anything
-/// broken, on a missing buffer or .rf.exr, on a required extension that neither Weft nor the options know,
-/// and where nothing is drawn. Touches no GL.
+/// Files are not trusted: everything is checked against its type and bounds, and memory is taken for no more
+/// than a file of its size needs. Fails, with file and reason, on anything broken, on a missing buffer, on a
+/// required extension that neither Weft nor the options know, and where nothing is drawn. Touches no GL.
 Result<GltfScene> loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace weft
