@@ -6,6 +6,7 @@
 
 #include "ConstantField.h"
 #include "GltfText.h"
+#include "OlderFields.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/ImageComparison.h"
@@ -54,6 +55,19 @@ class RenderCommand : public testing::Test {
   const std::filesystem::path folder = test::testFolder();
   const std::string output = (folder / "out.png").string();
 };
+
+TEST_F(RenderCommand, FieldsOfOlderFilesLookAsTheyDidThen) {
+  for (const std::string& name : test::olderFields()) {
+    const std::filesystem::path field = test::olderFieldsFolder() / name, picture = folder / "picture.exr";
+    ASSERT_EQ(test::runProgram("weft-render",
+                               {"shape:plane", "--material", "*=" + field.string() + ".rf.exr", "--camera",
+                                "0.3,0.4,1:0,0,0", "--light=-1,1,1.5", "--size", "10x8", "-o", picture})
+                  .exitCode,
+              0);
+    const FloatImage then = test::valueOf(readExr(field.string() + ".picture.exr"));
+    EXPECT_LE(compareImages(test::valueOf(readExr(picture)), then).maximum, 1e-6f) << name;
+  }
+}
 
 // The first picture is that without a turntable, the second shows the other side.
 TEST_F(RenderCommand, ATurntableShowsTheSceneFromAllSides) {
