@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MeasurementInput.h"
+#include "ModelArguments.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/report/Comparison.h"
@@ -24,16 +25,19 @@ struct Arguments {
   double memoryGibibytes = 4.0;
   BtfOptions measurement;
   FitOptions fit;
+  ModelArguments modelOptions{fit.models};
 };
 
 void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("INPUT", a.input, kMeasurementHelp)->required();
   addMeasurementOptions(app, a.measurement);
   app.add_option("-o", a.output, "the folder for index.html, compare.json and the fits")->required();
-  app.add_option("--models", a.models, "what to compare, separated by commas")
+  app.add_option("--models", a.models,
+                 a.modelOptions.helpOfNames("what to compare, separated by commas; as the papers have them:"))
       ->delimiter(',')
-      ->check(CLI::IsMember(ModelRegistry::builtin().names()))
+      ->check(CLI::IsMember(a.fit.models.names()))
       ->capture_default_str();
+  a.modelOptions.addTo(app);
   app.add_option("--space", a.space,
                  "linear: minimise errors of linear values, weighted as a display shows them; stored: plain "
                  "errors of the stored values, as the papers do")
@@ -53,7 +57,9 @@ void addOptions(CLI::App& app, Arguments& a) {
 
 Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
   const std::filesystem::path& folder = arguments.output;
-  WEFT_TRY(std::vector<ModelDescription> models, comparedModels(arguments.models));
+  Result<std::vector<ModelDescription>> models =
+      comparedModels(arguments.models, arguments.modelOptions.given(), arguments.fit.models);
+  if (!models) return tool.badUsage(models.error().message());
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
   tellWarnings(tool, arguments.input, source->description());
   std::optional<Crop> crop;
@@ -74,7 +80,7 @@ Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
   for (const char* name : {"index.html", "compare.json"}) WEFT_TRY_VOID(tool.checkOutput(folder / name));
 
   WEFT_TRY(const RawBtf btf, RawBtf::read(*source, crop));
-  ComparisonOptions options{std::move(models), arguments.fit};
+  ComparisonOptions options{std::move(*models), arguments.fit};
   options.fit.space = arguments.space == "stored" ? FitSpace::Stored : FitSpace::Linear;
   options.fit.cosineInModel = options.fit.space == FitSpace::Stored;
   options.fit.memory = memory - wholeBytes;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MeasurementInput.h"
+#include "ModelArguments.h"
 #include "weft/core/Direction.h"
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/io/ExrFile.h"
@@ -80,8 +81,7 @@ Result<void> compare(const Tool& tool, const ReflectanceField& field, const Argu
 
   if (evaluation.warning) tool.warn(*evaluation.warning);
   Json json = Json::parse(toJson(evaluation.errors, evaluation.heldOut));
-  json["model"] = field.model().description().name;
-  json["lobes"] = field.model().description().lobes;
+  addModel(json, "model", field.model().description());
   json["views"] = source->description().views.size();
   json["lights"] = source->description().lights.size();
   json["bytes"] = {{"file", fileBytes(arguments.field)}, {"gpu", gpuBytes(field)}};
@@ -90,7 +90,7 @@ Result<void> compare(const Tool& tool, const ReflectanceField& field, const Argu
   WEFT_TRY_VOID(tool.writeJson(json));
   if (!arguments.report.empty()) WEFT_TRY_VOID(writeFieldReport(field, evaluation, arguments.report));
   tool.print(fmt::format("{}: {}, {} x {} texels\n", arguments.field.string(),
-                         labelOf(field.model().description()), field.width(), field.height()));
+                         field.model().options().label(), field.width(), field.height()));
   tool.print(toText("eps (Meseth eq. 2)", evaluation.errors));
   if (evaluation.heldOut) tool.print(toText("of held-out pairs", *evaluation.heldOut));
   return {};
@@ -101,7 +101,7 @@ Result<ExitCode> evaluate(const Tool& tool, const Arguments& arguments) {
     return tool.badUsage("nothing to do: give --against or --image");
   if (!arguments.view.empty() && arguments.output.extension() != ".exr")
     return tool.badUsage("-o takes a .exr, which is what --image writes: " + arguments.output.string());
-  WEFT_TRY(const ReflectanceField field, readReflectanceField(arguments.field, ModelRegistry::builtin()));
+  WEFT_TRY(const ReflectanceField field, readReflectanceField(arguments.field));
   if (!arguments.view.empty()) WEFT_TRY_VOID(writeImage(field, arguments));
   if (!arguments.measurement.empty()) WEFT_TRY_VOID(compare(tool, field, arguments));
   return ExitCode::Done;

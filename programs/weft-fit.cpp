@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MeasurementInput.h"
+#include "ModelArguments.h"
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/ReflectanceFieldFile.h"
@@ -25,8 +26,6 @@ struct Arguments {
   std::filesystem::path output;
   std::string precision = "half";
   std::string cosine;
-  std::string diffuse = "shared";
-  std::string color = "luminance";
   std::string space;
   bool resume = false;
   std::vector<int> crop;
@@ -35,31 +34,25 @@ struct Arguments {
   std::filesystem::path report;
   BtfOptions measurement;
   FitOptions fit;
+  ModelArguments modelOptions{fit.models};
 };
+
+std::string namesOfStoredFits(const ModelRegistry& models) {
+  std::vector<std::string> names;
+  for (const ModelType& type : models.types())
+    if (type.fitsStoredValues) names.push_back(type.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 void addOptions(Tool& tool, Arguments& a) {
   CLI::App& app = tool.options();
   app.add_option("INPUT", a.input, kMeasurementHelp)->required();
   addMeasurementOptions(app, a.measurement);
   tool.addOutput("-o", a.output, "the .rf.exr to write")->required();
-  app.add_option("--model", a.fit.model.name,
-                 "what to fit: " + fmt::format("{}", fmt::join(ModelRegistry::builtin().names(), ", ")))
-      ->check(CLI::IsMember(ModelRegistry::builtin().names()))
+  app.add_option("--model", a.fit.model.name, a.modelOptions.helpOfNames("what to fit:"))
+      ->check(CLI::IsMember(a.modelOptions.registry().names()))
       ->capture_default_str();
-  app.add_option("--lobes", a.fit.model.lobes,
-                 "lobes of the models that have lobes: rfnl and lfnl 1 to 4, laf and slaf 1 to 10")
-      ->check(CLI::Range(1, 10))
-      ->capture_default_str();
-  app.add_option("--color", a.color,
-                 "fit luminance, which a base colour a texel turns into RGB, or each colour channel (three "
-                 "times the numbers)")
-      ->check(CLI::IsMember({"luminance", "rgb"}))
-      ->capture_default_str();
-  app.add_option(
-         "--rho-d", a.diffuse,
-         "the diffuse albedo of rfnl: one for all views, or each its own (smaller errors, larger file)")
-      ->check(CLI::IsMember({"shared", "per-view"}))
-      ->capture_default_str();
+  a.modelOptions.addTo(app);
   app.add_option("--cosine", a.cosine,
                  "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do "
                  "[out; in for ptm, bump and --space stored]")
@@ -67,7 +60,8 @@ void addOptions(Tool& tool, Arguments& a) {
   app.add_option(
          "--space", a.space,
          "linear: minimise errors of linear values, weighted as a display shows them; stored: plain errors "
-         "of the stored values, as the papers do [linear; stored for ptm]")
+         "of the stored values, as the papers do [linear; stored for " +
+             namesOfStoredFits(a.modelOptions.registry()) + "]")
       ->check(CLI::IsMember({"linear", "stored"}));
   app.add_option("--float", a.precision, "precision of the parameters in the file")
       ->check(CLI::IsMember({"half", "float"}))
@@ -96,12 +90,11 @@ std::filesystem::path partsOf(const std::filesystem::path& output) {
   return parts += ".parts";
 }
 
-FitOptions fitOptions(const Arguments& a, const ProcessGroup& group) {
+FitOptions fitOptions(const Arguments& a, const ModelType& type, const ProcessGroup& group) {
   FitOptions options = a.fit;
-  const std::string space = !a.space.empty() ? a.space : a.fit.model.name == "ptm" ? "stored" : "linear";
+  const std::string space = !a.space.empty() ? a.space : type.fitsStoredValues ? "stored" : "linear";
   const std::string cosine = !a.cosine.empty() ? a.cosine : space == "stored" ? "in" : "out";
-  options.model.diffuseAlbedo = a.diffuse == "shared" ? DiffuseAlbedo::Shared : DiffuseAlbedo::PerView;
-  options.model.color = a.color == "rgb" ? FitColor::Rgb : FitColor::Luminance;
+  options.model.options = a.modelOptions.given();
   options.cosineInModel = cosine == "in";
   options.space = space == "stored" ? FitSpace::Stored : FitSpace::Linear;
   options.precision = a.precision == "half" ? Precision::Half : Precision::Float;
@@ -135,9 +128,11 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
     return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
-  const FitOptions options = fitOptions(arguments, group);
-  WEFT_TRY(const auto model, ModelRegistry::builtin().create(options.model));
-  if (arguments.cosine == "out" && model->containsCosine())
+  WEFT_TRY(const ModelType type, arguments.fit.models.find(arguments.fit.model.name));
+  const FitOptions options = fitOptions(arguments, type, group);
+  const auto model = options.models.create(options.model);
+  if (!model) return tool.badUsage(model.error().message());
+  if (arguments.cosine == "out" && (*model)->containsCosine())
     return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
   const BtfDescription& measured = source->description();
@@ -157,10 +152,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
       std::chrono::duration<double>(std::chrono::steady_clock::now() - startOfWriting).count();
 
   Json report = Json::parse(toJson(result.errors, result.heldOut));
-  report["model"] = result.field.model().description().name;
-  report["lobes"] = result.field.model().description().lobes;
-  report["rho_d"] = arguments.diffuse;
-  report["color"] = arguments.color;
+  addModel(report, "model", result.field.model().description());
   report["cosine"] = result.field.description().hasCosine ? "in" : "out";
   report["space"] = options.space == FitSpace::Linear ? "linear" : "stored";
   report["views"] = measured.views.size();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MeasurementInput.h"
+#include "ModelArguments.h"
 #include "weft/core/FileKind.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
@@ -27,21 +28,22 @@ Json describe(const weft::BtfDescription& btf) {
 
 Json describe(const weft::ReflectanceField& field) {
   const weft::ReflectanceFieldDescription& description = field.description();
-  const weft::ModelDescription model = field.model().description();
-  Json modelJson = {{"name", model.name},
-                    {"shared_channels", field.shared().channels()},
-                    {"layer_channels", field.layers().channels()}};
-  if (model.lobes > 0) modelJson["lobes"] = model.lobes;
+  Json model;
+  weft::addModel(model, "name", field.model().description());
+  model["shared_channels"] = field.shared().channels();
+  model["layer_channels"] = field.layers().channels();
+  for (const auto& [name, table] : field.tables()) model["tables"].push_back(name);
   return {{"kind", "reflectance field"},
           {"name", description.source},
           {"width", field.width()},
           {"height", field.height()},
+          {"levels", field.levels().size()},
           {"views", field.description().views.size()},
           {"lights", description.lights.size()},
           {"encoding", weft::name(description.encoding)},
           {"has_cosine", description.hasCosine},
           {"precision", field.shared().precision() == weft::Precision::Half ? "half" : "float"},
-          {"model", modelJson},
+          {"model", model},
           {"fit", description.fitReport.empty() ? Json() : Json::parse(description.fitReport)}};
 }
 
@@ -50,8 +52,7 @@ weft::Result<Json> describeFile(const weft::Tool& tool, const std::filesystem::p
   Json json;
   Json bytes = Json::object();
   if (file.extension() == ".exr" || weft::fileKind(file) == weft::FileKind::Exr) {
-    WEFT_TRY(const weft::ReflectanceField field,
-             weft::readReflectanceField(file, weft::ModelRegistry::builtin()));
+    WEFT_TRY(const weft::ReflectanceField field, weft::readReflectanceField(file));
     json = describe(field);
     bytes["gpu"] = weft::gpuBytes(field);
   } else {

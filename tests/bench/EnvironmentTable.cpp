@@ -132,9 +132,10 @@ Result<void> table(int argc, char** argv) {
   WEFT_TRY(const RawBtf raw, RawBtf::read(*source, Crop{20, 20, kTexels, kTexels}));
   std::vector<std::pair<std::string, ReflectanceField>> fields;
   for (const ModelDescription& model :
-       {ModelDescription{.name = "rfnl", .lobes = 2}, ModelDescription{.name = "rfp"},
-        ModelDescription{.name = "laf", .lobes = 4}, ModelDescription{.name = "slaf", .lobes = 4},
-        ModelDescription{.name = "bump"}, ModelDescription{.name = "lfnl", .lobes = 2}}) {
+       {ModelDescription{.name = "rfnl", .options = {{"lobes", 2}}}, ModelDescription{.name = "rfp"},
+        ModelDescription{.name = "laf", .options = {{"lobes", 4}}},
+        ModelDescription{.name = "slaf", .options = {{"lobes", 4}}}, ModelDescription{.name = "bump"},
+        ModelDescription{.name = "lfnl", .options = {{"lobes", 2}}}}) {
     FitOptions options;
     options.model = model;
     WEFT_TRY(FitResult fit, fitReflectanceField(raw, options));

@@ -88,7 +88,7 @@ Result<void> turn(int argc, char** argv) {
   WEFT_TRY(const RawBtf raw, RawBtf::read(*source, Crop{20, 20, kTexels, kTexels}));
   std::vector<std::pair<std::string, ReflectanceField>> fields;
   for (const ModelDescription& model :
-       {ModelDescription{.name = "rfnl", .lobes = 2}, ModelDescription{.name = "rfp"}}) {
+       {ModelDescription{.name = "rfnl", .options = {{"lobes", 2}}}, ModelDescription{.name = "rfp"}}) {
     FitOptions options;
     options.model = model;
     WEFT_TRY(FitResult fit, fitReflectanceField(raw, options));

@@ -153,15 +153,18 @@ TEST_P(GpuAgainstCpu, AgreeOnTheFittedWool) {
 
 INSTANTIATE_TEST_SUITE_P(
     Models, GpuAgainstCpu,
-    testing::Values(ModelDescription{.name = "rfp"}, ModelDescription{.name = "rfnl", .lobes = 2},
-                    ModelDescription{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView},
-                    ModelDescription{.name = "laf", .lobes = 4}, ModelDescription{.name = "slaf", .lobes = 3},
-                    ModelDescription{.name = "laf", .lobes = 1, .color = FitColor::Rgb},
+    testing::Values(ModelDescription{.name = "rfp"},
+                    ModelDescription{.name = "rfnl", .options = {{"lobes", 2}}},
+                    ModelDescription{.name = "rfnl", .options = {{"lobes", 1}, {"rho_d", "per-view"}}},
+                    ModelDescription{.name = "laf", .options = {{"lobes", 4}}},
+                    ModelDescription{.name = "slaf", .options = {{"lobes", 3}}},
+                    ModelDescription{.name = "laf", .options = {{"lobes", 1}, {"color", "rgb"}}},
                     ModelDescription{.name = "bump"}),
     [](const auto& test) {
-      return test.param.name + std::to_string(test.param.lobes) +
-             (test.param.diffuseAlbedo == DiffuseAlbedo::Shared ? "" : "OwnDiffuse") +
-             (test.param.color == FitColor::Luminance ? "" : "Rgb");
+      std::string name = test.param.name;
+      for (const auto& [option, value] : test.param.options) name += "_" + textOf(value);
+      std::ranges::replace(name, '-', '_');
+      return name;
     });
 
 // A field whose every number is different, so that a mix-up of texels, views or channels shows.

@@ -125,21 +125,21 @@ struct FitKind {
   bool stored = false;
 };
 
-const std::vector<FitKind> kModels{{{.name = "rfnl", .lobes = 2}},
+const std::vector<FitKind> kModels{{{.name = "rfnl", .options = {{"lobes", 2}}}},
                                    {{.name = "rfp"}},
-                                   {{.name = "laf", .lobes = 3}},
-                                   {{.name = "slaf", .lobes = 2}},
+                                   {{.name = "laf", .options = {{"lobes", 3}}}},
+                                   {{.name = "slaf", .options = {{"lobes", 2}}}},
                                    {{.name = "bump"}}};
-const std::vector<FitKind> kVariants{{{.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}},
-                                     {{.name = "laf", .lobes = 1, .color = FitColor::Rgb}},
-                                     {{.name = "rfp", .color = FitColor::Rgb}},
-                                     {{.name = "lfnl", .lobes = 1}},
+const std::vector<FitKind> kVariants{{{.name = "rfnl", .options = {{"lobes", 1}, {"rho_d", "per-view"}}}},
+                                     {{.name = "laf", .options = {{"lobes", 1}, {"color", "rgb"}}}},
+                                     {{.name = "rfp", .options = {{"color", "rgb"}}}},
+                                     {{.name = "lfnl", .options = {{"lobes", 1}}}},
                                      {{.name = "lfp"}},
                                      {{.name = "rfp"}, true},
-                                     {{.name = "rfnl", .lobes = 1}, false, true}};
+                                     {{.name = "rfnl", .options = {{"lobes", 1}}}, false, true}};
 
 std::string nameOf(const FitKind& kind) {
-  return kind.model.name + " " + (kind.model.color == FitColor::Rgb ? "rgb " : "") +
+  return kind.model.name + " " + (kind.model.options.contains("color") ? "rgb " : "") +
          (kind.cosineInModel ? "with cosine " : "") + (kind.stored ? "stored" : "");
 }
 
@@ -291,9 +291,9 @@ TEST_F(EnvironmentTest, DiffuseAndSpecularAddUpAndPointLightsToo) {
     return target.read(context());
   };
   const std::vector<std::shared_ptr<const Material>> materials{
-      valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .lobes = 2}))),
+      valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .options = {{"lobes", 2}}}))),
       valueOf(BTFMaterial::create(unevenField({.name = "rfp"}))),
-      valueOf(BTFMaterial::create(unevenField({.name = "laf", .lobes = 2}))),
+      valueOf(BTFMaterial::create(unevenField({.name = "laf", .options = {{"lobes", 2}}}))),
       valueOf(BTFMaterial::create(unevenField({.name = "bump"}))),
       std::make_shared<PBRMaterial>(PBROptions{.metallic = 0.3f, .roughness = 0.5f}),
       std::make_shared<LambertMaterial>()};
@@ -378,7 +378,8 @@ TEST_F(EnvironmentTest, OcclusionDimsTheSurroundings) {
 TEST_F(EnvironmentTest, BadPicturesAreWarnedAboutAndDrawn) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  const auto material = valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .lobes = 2})));
+  const auto material =
+      valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .options = {{"lobes", 2}}})));
   const auto mirror = std::make_shared<PBRMaterial>(PBROptions{.roughness = 0.0f});
   const auto cleaned = [&](const FloatImage& picture, std::size_t expectedWarnings) {
     std::vector<std::string> warnings;

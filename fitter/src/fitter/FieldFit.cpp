@@ -49,17 +49,17 @@ ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const 
 }
 
 // Everything that decides the numbers of a fit, for people to compare.
-std::string fingerprintOf(const BtfDescription& measured, const FitOptions& options, const Crop& crop) {
-  const ModelDescription& m = options.model;
-  return fmt::format(
-      "weft {} of {} {}x{}x{}x{}, crop {} {} {} {}, {} lobes, {} albedo, {}, cosine {}, space {}, hold out "
-      "{} {}, {}",
-      m.name, measured.name, measured.width, measured.height, measured.views.size(), measured.lights.size(),
-      crop.x, crop.y, crop.width, crop.height, m.lobes,
-      m.diffuseAlbedo == DiffuseAlbedo::Shared ? "shared" : "per-view",
-      m.color == FitColor::Luminance ? "luminance" : "rgb", options.cosineInModel ? "in" : "out",
-      options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights, options.holdOutViews,
-      options.precision == Precision::Half ? "half" : "float");
+std::string fingerprintOf(const BtfDescription& measured, const FitOptions& options, const Crop& crop,
+                          const ModelDescription& model) {
+  std::string fingerprint = "weft " + model.name;
+  for (const auto& [name, value] : model.options) fingerprint += fmt::format(" ({} {})", name, textOf(value));
+  return fingerprint +
+         fmt::format(" of {} {}x{}x{}x{}, crop {} {} {} {}, cosine {}, space {}, hold out {} {}, {}",
+                     measured.name, measured.width, measured.height, measured.views.size(),
+                     measured.lights.size(), crop.x, crop.y, crop.width, crop.height,
+                     options.cosineInModel ? "in" : "out",
+                     options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights,
+                     options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
 }
 
 // Calls back one thread at a time, with what is done of all rows.
@@ -118,7 +118,7 @@ struct FieldFit::Data {
         meter(formula, description, source.description()),
         job(source.description(), options, meter, *fitter, *model),
         rows(crop.width, crop.height, formula, options.partsFolder,
-             fingerprintOf(source.description(), options, crop)) {}
+             fingerprintOf(source.description(), options, crop, model->description())) {}
 
   std::vector<RowRange> blocksToFit(int firstRow, int count) const;
   Result<void> fitBlock(const SampleRows& samples, RowRange block, RowCounter& counter);
@@ -181,12 +181,12 @@ Result<FieldFit> FieldFit::create(const BtfSource& source, const FitOptions& opt
   const BtfDescription& measured = source.description();
   WEFT_TRY_VOID(options.validate());
   WEFT_TRY(const Crop crop, checkedCrop(options.crop, measured));
-  WEFT_TRY(std::shared_ptr<const ReflectanceModel> model, ModelRegistry::builtin().create(options.model));
+  WEFT_TRY(std::shared_ptr<const ReflectanceModel> model, options.models.create(options.model));
   ReflectanceFieldDescription description = descriptionOf(measured, options, *model);
   WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
   WEFT_TRY(std::unique_ptr<TexelFitter> fitter,
-           FitterRegistry::builtin().create({description.views, description.lights, description.hasCosine,
-                                             options.space == FitSpace::Linear, model}));
+           options.fitters.create({description.views, description.lights, description.hasCosine,
+                                   options.space == FitSpace::Linear, model}));
   return FieldFit(std::make_unique<Data>(source, options, crop, formula, std::move(model), std::move(fitter),
                                          std::move(description)));
 }

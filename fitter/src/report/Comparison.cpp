@@ -1,10 +1,12 @@
 #include "weft/report/Comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ComparisonFigures.h"
 #include "weft/core/Direction.h"
@@ -17,24 +19,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string fileOf(const ModelDescription& model) {
+// "rfnl-2-per-view.rf.exr": numbers, and words that are not the standard.
+std::string fileOf(const ModelDescription& model, const ModelType& type) {
   std::string name = model.name;
-  if (model.lobes > 0) name += fmt::format("-{}", model.lobes);
-  if (model.diffuseAlbedo == DiffuseAlbedo::PerView) name += "-per-view";
-  if (model.color == FitColor::Rgb) name += "-rgb";
+  for (const ModelOption& option : type.options)
+    if (const OptionValue& value = model.options.at(option.name);
+        option.words.empty() || value != option.standard)
+      name += "-" + textOf(value);
   return name + ".rf.exr";
 }
 
 Result<ComparedModel> fitModel(const RawBtf& btf, FitOptions options, const ModelDescription& model,
                                const std::filesystem::path& folder, const Progress& progress) {
   options.model = model;
+  WEFT_TRY(const ModelType type, options.models.find(model.name));
   WEFT_TRY(FitResult fit, fitReflectanceField(btf, options, progress));
-  const ModelDescription fitted = fit.field.model().description();
-  const std::filesystem::path file = folder / fileOf(fitted);
+  const std::string label = fit.field.model().options().label();
+  const std::filesystem::path file = folder / fileOf(fit.field.model().description(), type);
   WEFT_TRY_VOID(writeReflectanceField(fit.field, file));
   const std::uint64_t gpu = gpuBytes(fit.field);
-  return ComparedModel{
-      labelOf(fitted), file.filename().string(), std::move(fit), std::filesystem::file_size(file), gpu, 0.0};
+  return ComparedModel{label, file.filename().string(), std::move(fit), std::filesystem::file_size(file), gpu,
+                       0.0};
 }
 
 std::vector<std::string> epsCells(const FitErrors& errors) {
@@ -142,14 +147,18 @@ void addCosts(HtmlReport& report, const RawBtf& btf, std::span<const ComparedMod
   addSizePlot(report, btf, models);
 }
 
+// Where that is not the models' standard.
+std::vector<ModelDescription> asInThePapers(const std::string& name) {
+  if (name == "laf" || name == "slaf") return {{name, {{"lobes", 4}}}};
+  if (name == "rfnl") return {{name, {}}, {name, {{"rho_d", "per-view"}}}};
+  return {{name, {}}};
+}
+
 Json jsonOf(const ComparedModel& model) {
   const ModelDescription& description = model.fit.field.model().description();
-  Json json = {{"label", model.label},
-               {"name", description.name},
-               {"lobes", description.lobes},
-               {"rho_d", description.diffuseAlbedo == DiffuseAlbedo::Shared ? "shared" : "per-view"},
-               {"color", description.color == FitColor::Luminance ? "luminance" : "rgb"},
-               {"file", model.file}};
+  Json json = {{"label", model.label}, {"name", description.name}, {"file", model.file}};
+  for (const auto& [name, value] : description.options)
+    std::visit([&](const auto& plain) { json[name] = plain; }, value);
   json.update(Json::parse(toJson(model.fit.errors, model.fit.heldOut)));
   json["bytes"] = {{"file", model.fileBytes}, {"gpu", model.gpuBytes}};
   json["seconds"] = {{"fit", model.fit.secondsFitting}};
@@ -169,18 +178,28 @@ Json jsonOf(const OneViewFit& fit) {
 
 }  // namespace
 
-Result<std::vector<ModelDescription>> comparedModels(const std::vector<std::string>& names) {
+Result<std::vector<ModelDescription>> comparedModels(const std::vector<std::string>& names,
+                                                     const std::map<std::string, OptionValue>& options,
+                                                     const ModelRegistry& registry) {
   std::vector<ModelDescription> models;
+  std::set<std::string> unused;
+  for (const auto& [name, value] : options) unused.insert(name);
   for (const std::string& name : names) {
-    const bool papersLafortune = name == "laf" || name == "slaf";
-    ModelDescription model{.name = name, .lobes = papersLafortune ? 4 : 2};
-    for (const DiffuseAlbedo albedo : {DiffuseAlbedo::Shared, DiffuseAlbedo::PerView}) {
-      if (albedo == DiffuseAlbedo::PerView && name != "rfnl") continue;
-      model.diffuseAlbedo = albedo;
-      WEFT_TRY(const auto created, ModelRegistry::builtin().create(model));
-      models.push_back(created->description());
+    WEFT_TRY(const ModelType type, registry.find(name));
+    for (ModelDescription model : asInThePapers(name)) {
+      for (const auto& [option, value] : options)
+        if (std::ranges::find(type.options, option, &ModelOption::name) != type.options.end()) {
+          model.options[option] = value;
+          unused.erase(option);
+        }
+      WEFT_TRY(const auto created, registry.create(model));
+      const ModelDescription& complete = created->description();
+      if (std::ranges::find(models, complete) == models.end()) models.push_back(complete);
     }
   }
+  if (!unused.empty())
+    return fail(fmt::format("none of the models has an option '{}'", *unused.begin()), {},
+                fmt::format("the models are {}", fmt::join(names, ", ")));
   return models;
 }
 
@@ -190,8 +209,9 @@ Result<std::string> compareModels(const RawBtf& btf, const ComparisonOptions& op
   const BtfDescription& measured = btf.description();
   std::vector<ComparedModel> models;
   for (const ModelDescription& model : options.models) {
+    WEFT_TRY(const auto named, options.fit.models.create(model));
     WEFT_TRY(ComparedModel fitted,
-             fitModel(btf, options.fit, model, folder, progress("fitting " + labelOf(model))));
+             fitModel(btf, options.fit, model, folder, progress("fitting " + named->options().label())));
     models.push_back(std::move(fitted));
   }
 

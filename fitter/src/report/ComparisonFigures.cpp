@@ -156,7 +156,7 @@ struct OneViewMethod {
 
 std::vector<OneViewMethod> oneViewMethods(bool withLaf) {
   std::vector<OneViewMethod> methods{{"ptm, luminance", {.name = "ptm"}},
-                                     {"ptm, RGB", {.name = "ptm", .color = FitColor::Rgb}}};
+                                     {"ptm, RGB", {.name = "ptm", .options = {{"color", "rgb"}}}}};
   if (!withLaf) return methods;
   methods.push_back({"laf, 2 lobes", {.name = "laf"}});
   methods.push_back({"laf, 2 lobes, interpolated lights", {.name = "laf"}, true});
@@ -278,10 +278,10 @@ Result<void> addTexelFigure(HtmlReport& report, const RawBtf& btf, const FitOpti
   if (isAmong(models, "laf"))
     for (const int lobes : {2, 10}) {
       FitOptions ofTexel = options;
-      ofTexel.model = {.name = "laf", .lobes = lobes};
+      ofTexel.model = {.name = "laf", .options = {{"lobes", lobes}}};
       ofTexel.crop = Crop{x, y, 1, 1};
       WEFT_TRY(const FitResult fit, fitReflectanceField(btf, ofTexel));
-      texels.push_back({labelOf(ofTexel.model), pairsOf(fit.field, 0, 0, measured)});
+      texels.push_back({fit.field.model().options().label(), pairsOf(fit.field, 0, 0, measured)});
     }
   for (const ComparedModel& model : models)
     if (model.fit.field.model().layerDirections() == LayerDirections::Views)

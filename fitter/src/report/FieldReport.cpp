@@ -33,14 +33,6 @@ Result<void> addPairs(HtmlReport& report, const std::vector<PairPictures>& pairs
 
 }  // namespace
 
-std::string labelOf(const ModelDescription& model) {
-  std::string label = model.name;
-  if (model.lobes > 0) label += fmt::format(", {} {}", model.lobes, model.lobes == 1 ? "lobe" : "lobes");
-  if (model.diffuseAlbedo == DiffuseAlbedo::PerView) label += ", rho_d per view";
-  if (model.color == FitColor::Rgb) label += ", RGB";
-  return label;
-}
-
 ReportTable errorTable(const FitErrors& errors, std::string caption) {
   ReportTable table{std::move(caption), {"eps", "avg", "min", "max", "95 %", "RMSE", "PSNR, dB"}, {}};
   for (const auto& [label, space, measure] :
@@ -61,7 +53,7 @@ ReportTable errorTable(const FitErrors& errors, std::string caption) {
 Result<void> writeFieldReport(const ReflectanceField& field, const FieldEvaluation& evaluation,
                               const std::filesystem::path& path) {
   const ReflectanceFieldDescription& description = field.description();
-  HtmlReport report(fmt::format("{}: {}", description.source, labelOf(field.model().description())));
+  HtmlReport report(fmt::format("{}: {}", description.source, field.model().options().label()));
   report.paragraph(fmt::format("{} x {} texels, {} views, {} lights.", field.width(), field.height(),
                                description.views.size(), description.lights.size()));
   if (evaluation.warning) report.paragraph(*evaluation.warning + ".");

@@ -5,8 +5,9 @@
 namespace weft {
 
 Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,
-                                                     const BTFMaterialOptions& options) {
-  WEFT_TRY(ReflectanceField field, readReflectanceField(path, ModelRegistry::builtin()));
+                                                     const BTFMaterialOptions& options,
+                                                     const ModelRegistry& models) {
+  WEFT_TRY(ReflectanceField field, readReflectanceField(path, models));
   return BTFMaterial::create(std::make_shared<const ReflectanceField>(std::move(field)), options);
 }
 

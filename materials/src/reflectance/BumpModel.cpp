@@ -23,10 +23,11 @@ float microfacets(float alpha, glm::vec3 n, glm::vec3 h, float nl, float nv) {
 
 }  // namespace
 
-Result<std::shared_ptr<const ReflectanceModel>> BumpModel::create(const ModelDescription& description) {
-  if (description.color == FitColor::Rgb)
-    return fail("the colour channels of a bump map have one normal", {}, "fit luminance");
-  return std::make_shared<const BumpModel>(ModelDescription{description.name, 0});
+std::vector<ModelType> BumpModel::types() {
+  return {{"bump",
+           "An ordinary bump-mapped surface: a normal, an albedo and a roughness a texel.",
+           {},
+           [](ModelOptions options) { return std::make_shared<const BumpModel>(std::move(options)); }}};
 }
 
 float BumpModel::evaluate(std::span<const float> shared, std::span<const float>, glm::vec3 light,

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "weft/core/BatchEncoding.h"
+#include "weft/core/Contract.h"
 
 namespace weft {
 namespace {
@@ -57,6 +58,8 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
   if (!model->integratesEnvironments() || description.encoding != Encoding::Linear ||
       description.hasCosine != model->containsCosine())
     formula.quadrature_ = LightQuadrature::create(description.lights);
+  formula.sharedNumbers_ = model->sharedChannels().size();
+  formula.layerNumbers_ = model->layerChannels().size();
   formula.model_ = std::move(model);
   formula.hasCosine_ = description.hasCosine;
   formula.encoding_ = description.encoding;
@@ -71,8 +74,14 @@ glm::vec3 FieldFormula::modelledLight(glm::vec3 light, float& factor) const {
   return notBelow(light, lowestLightZ_);
 }
 
+void FieldFormula::expectNumbers(std::span<const float> shared, std::span<const float> layer) const {
+  WEFT_EXPECT(shared.size() == sharedNumbers_ && layer.size() == layerNumbers_,
+              "a texel has as many numbers as its model");
+}
+
 glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                                  glm::vec3 view) const {
+  expectNumbers(shared, layer);
   if (light.z <= 0.0f) return glm::vec3(0.0f);
   float factor = 0.0f;
   const glm::vec3 modelled = modelledLight(light, factor);
@@ -83,6 +92,8 @@ glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const 
 void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const float> layer,
                                   const ModelledLights& lights, glm::vec3 view,
                                   std::span<glm::vec3> values) const {
+  expectNumbers(shared, layer);
+  WEFT_EXPECT(values.size() == lights.directions.size(), "there is room for a value a light");
   model_->evaluateColors(shared, layer, lights.directions, notBelow(view, lowestViewZ_), values);
   if (encoding_ != Encoding::Linear) decodeAll(encoding_, floatsOf(values));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] *= lights.factors[i];
@@ -97,6 +108,7 @@ ModelledLights FieldFormula::modelledLights(std::span<const glm::vec3> lights) c
 
 glm::vec3 FieldFormula::underEnvironment(std::span<const float> shared, std::span<const float> layer,
                                          glm::vec3 view, const SurfaceLight& light) const {
+  expectNumbers(shared, layer);
   return model_->colorUnderEnvironment(shared, layer, notBelow(view, lowestViewZ_), light);
 }
 

@@ -9,39 +9,52 @@
 
 namespace weft {
 
-Result<std::shared_ptr<const ReflectanceModel>> LafModel::create(const ModelDescription& description) {
-  if (description.lobes < 1 || description.lobes > kMaximumLobes)
-    return fail(fmt::format("{} cannot have {} lobes", description.name, description.lobes), {},
-                fmt::format("1 to {}", kMaximumLobes));
-  return std::make_shared<const LafModel>(description);
+std::vector<ModelType> LafModel::types() {
+  const auto typeOf = [](std::string name, std::string purpose, bool hasViewFactor) {
+    return ModelType{
+        std::move(name),
+        std::move(purpose),
+        {ModelOption::number("lobes", "cosine lobes a texel", 2, 1, kMaximumLobes), ModelOption::color()},
+        [hasViewFactor](ModelOptions options) {
+          return std::make_shared<const LafModel>(std::move(options), hasViewFactor);
+        }};
+  };
+  return {typeOf("laf", "A diffuse albedo and Lafortune's lobes of light and view, for all views at once.",
+                 false),
+          typeOf("slaf", "laf times a factor for every view.", true)};
 }
 
+LafModel::LafModel(ModelOptions options, bool hasViewFactor)
+    : ReflectanceModel(std::move(options)),
+      lobes_(this->options().number("lobes")),
+      hasViewFactor_(hasViewFactor) {}
+
 LayerDirections LafModel::layerDirections() const {
-  return hasViewFactor() ? LayerDirections::Views : LayerDirections::None;
+  return hasViewFactor_ ? LayerDirections::Views : LayerDirections::None;
 }
 
 std::vector<std::string> LafModel::sharedNumbers() const {
   std::vector<std::string> names{"rho_d"};
-  for (int j = 0; j < description().lobes; ++j)
+  for (int j = 0; j < lobes_; ++j)
     for (const char* part : {"amplitude", "p", "q", "exponent"})
       names.push_back(fmt::format("lobe{}.{}", j, part));
   return names;
 }
 
 std::vector<std::string> LafModel::layerNumbers() const {
-  if (hasViewFactor()) return {"view_factor"};
+  if (hasViewFactor_) return {"view_factor"};
   return {};
 }
 
 float LafModel::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                          glm::vec3 view) const {
   float value = shared[0];
-  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = shared.subspan(1 + 4 * j, 4);
     const float base = glm::dot(lafAxes({lobe[1], lobe[2]}), light * view);
     if (base > 0.0f) value += lobe[0] * std::pow(base, lobe[3]);
   }
-  if (hasViewFactor()) value *= layer[0];
+  if (hasViewFactor_) value *= layer[0];
   return std::max(value, 0.0f);
 }
 
@@ -49,18 +62,18 @@ float LafModel::evaluate(std::span<const float> shared, std::span<const float> l
 glm::vec3 LafModel::underEnvironment(std::span<const float> shared, std::span<const float> layer,
                                      glm::vec3 view, const SurfaceLight& light) const {
   glm::vec3 value = shared[0] * light.matt({0, 0, 1});
-  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = shared.subspan(1 + 4 * j, 4);
     const glm::vec3 t = lafAxes({lobe[1], lobe[2]}) * view;
     const float size = glm::length(t);
     if (size > 0.0f) value += lobe[0] * std::pow(size, lobe[3]) * light.lobe(t / size, lobe[3]);
   }
-  if (hasViewFactor()) value *= layer[0];
+  if (hasViewFactor_) value *= layer[0];
   return glm::max(value, 0.0f);
 }
 
 std::map<std::string, std::string> LafModel::shaderDefines() const {
-  return {{"LOBES", std::to_string(description().lobes)}, {"VIEW_FACTOR", hasViewFactor() ? "1" : "0"}};
+  return {{"LOBES", std::to_string(lobes_)}, {"VIEW_FACTOR", hasViewFactor_ ? "1" : "0"}};
 }
 
 glm::vec3 lafAxes(glm::vec2 packed) {

@@ -1,9 +1,12 @@
+#include "weft/reflectance/ModelRegistry.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "weft/reflectance/BumpModel.h"
 #include "weft/reflectance/LafModel.h"
-#include "weft/reflectance/ReflectanceModel.h"
 #include "weft/reflectance/RfnlModel.h"
 #include "weft/reflectance/RfpModel.h"
 
@@ -11,33 +14,38 @@ namespace weft {
 
 ModelRegistry ModelRegistry::builtin() {
   ModelRegistry registry;
-  registry.add("rfp", RfpModel::create);
-  registry.add("rfnl", RfnlModel::create);
-  registry.add("lfp", RfpModel::create);
-  registry.add("lfnl", RfnlModel::create);
-  registry.add("ptm", RfpModel::create);
-  registry.add("laf", LafModel::create);
-  registry.add("slaf", LafModel::create);
-  registry.add("bump", BumpModel::create);
+  for (const auto& types : {RfpModel::types(), RfnlModel::types(), LafModel::types(), BumpModel::types()})
+    for (const ModelType& type : types) registry.add(type);
   return registry;
 }
 
-void ModelRegistry::add(std::string name, Factory factory) {
-  factories_.emplace_back(std::move(name), factory);
+void ModelRegistry::add(ModelType type) {
+  const auto same = std::ranges::find(types_, type.name, &ModelType::name);
+  if (same == types_.end())
+    types_.push_back(std::move(type));
+  else
+    *same = std::move(type);
 }
 
 std::vector<std::string> ModelRegistry::names() const {
   std::vector<std::string> result;
-  for (const auto& [name, factory] : factories_) result.push_back(name);
+  for (const ModelType& type : types_) result.push_back(type.name);
   return result;
+}
+
+Result<ModelType> ModelRegistry::find(std::string_view name) const {
+  const auto found = std::ranges::find(types_, name, &ModelType::name);
+  if (found == types_.end())
+    return fail(fmt::format("unknown model '{}'", name), {},
+                fmt::format("known are {}", fmt::join(names(), ", ")));
+  return *found;
 }
 
 Result<std::shared_ptr<const ReflectanceModel>> ModelRegistry::create(
     const ModelDescription& description) const {
-  for (const auto& [name, factory] : factories_)
-    if (name == description.name) return factory(description);
-  return fail(fmt::format("unknown model '{}'", description.name), {},
-              fmt::format("one of {}", fmt::join(names(), ", ")));
+  WEFT_TRY(const ModelType type, find(description.name));
+  WEFT_TRY(ModelOptions options, ModelOptions::create(description, type.options));
+  return type.make(std::move(options));
 }
 
 }  // namespace weft

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace weft {
 namespace {
@@ -16,12 +18,8 @@ Result<void> checkNumbers(const FloatImage& image, const std::vector<std::string
   return {};
 }
 
-}  // namespace
-
-Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const ReflectanceModel> model,
-                                                  ReflectanceFieldDescription description, FloatImage shared,
-                                                  FloatImage layers) {
-  WEFT_TRY(FieldFormula formula, FieldFormula::create(std::move(model), description));
+Result<void> checkLevel(const FieldLevel& level, const FieldFormula& formula) {
+  const auto& [shared, layers] = level;
   if (shared.empty() || shared.layers() != 1) return fail("the shared numbers are not one image");
   if (layers.layers() != formula.layerCount())
     return fail(
@@ -29,17 +27,59 @@ Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const Reflecta
   if (!layers.empty() && (layers.width() != shared.width() || layers.height() != shared.height()))
     return fail("shared and layer numbers differ in size");
   WEFT_TRY_VOID(checkNumbers(shared, formula.model().sharedChannels(), "shared"));
-  WEFT_TRY_VOID(checkNumbers(layers, formula.model().layerChannels(), "layer"));
+  return checkNumbers(layers, formula.model().layerChannels(), "layer");
+}
+
+// The sides of all but the first, whose numbers have been checked.
+Result<void> checkSides(std::span<const FieldLevel> levels) {
+  const int width = levels[0].shared.width(), height = levels[0].shared.height();
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const FloatImage& finer = levels[i - 1].shared;
+    if (finer.width() == 1 && finer.height() == 1)
+      return fail(fmt::format("level {} of a field follows one of a single texel", i));
+    const int levelWidth = sideOfLevel(width, static_cast<int>(i));
+    const int levelHeight = sideOfLevel(height, static_cast<int>(i));
+    if (levels[i].shared.width() != levelWidth || levels[i].shared.height() != levelHeight)
+      return fail(fmt::format("level {} of a field of {} x {} texels has {} x {} instead of {} x {}", i,
+                              width, height, levels[i].shared.width(), levels[i].shared.height(), levelWidth,
+                              levelHeight));
+  }
+  return {};
+}
+
+}  // namespace
+
+int sideOfLevel(int side, int level) {
+  return level < 31 ? std::max(side >> level, 1) : 1;
+}
+
+Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const ReflectanceModel> model,
+                                                  ReflectanceFieldDescription description,
+                                                  std::vector<FieldLevel> levels, FieldTables tables) {
+  auto sharedTables = std::make_shared<const FieldTables>(std::move(tables));
+  WEFT_TRY(model, boundModel(std::move(model), sharedTables));
+  WEFT_TRY(FieldFormula formula, FieldFormula::create(std::move(model), description));
+  if (levels.empty()) return fail("a field has at least one level");
+  for (const FieldLevel& level : levels) WEFT_TRY_VOID(checkLevel(level, formula));
+  WEFT_TRY_VOID(checkSides(levels));
 
   ReflectanceField field(std::move(formula));
   field.description_ = std::move(description);
-  field.shared_ = std::move(shared);
-  field.layers_ = std::move(layers);
+  field.levels_ = std::move(levels);
+  field.tables_ = std::move(sharedTables);
   return field;
 }
 
+Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const ReflectanceModel> model,
+                                                  ReflectanceFieldDescription description, FloatImage shared,
+                                                  FloatImage layers) {
+  std::vector<FieldLevel> levels(1);
+  levels[0] = {std::move(shared), std::move(layers)};
+  return create(std::move(model), std::move(description), std::move(levels));
+}
+
 glm::vec3 ReflectanceField::evaluateLayer(int x, int y, int layer, glm::vec3 light, glm::vec3 view) const {
-  return formula_.evaluate(shared_.texel(x, y), layers_.texel(x, y, layer), light, view);
+  return formula_.evaluate(shared().texel(x, y), layers().texel(x, y, layer), light, view);
 }
 
 glm::vec3 ReflectanceField::evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light,
@@ -68,9 +108,9 @@ glm::vec3 ReflectanceField::underEnvironment(int x, int y, glm::vec3 view, const
   for (int k = 0; k < 3; ++k)
     if (layers.weight[k] > 0.0f)
       sum += layers.weight[k] *
-             formula_.underEnvironment(shared_.texel(x, y),
-                                       layers_.texel(x, y, layers.index[static_cast<std::size_t>(k)]), view,
-                                       light);
+             formula_.underEnvironment(shared().texel(x, y),
+                                       this->layers().texel(x, y, layers.index[static_cast<std::size_t>(k)]),
+                                       view, light);
   return sum;
 }
 

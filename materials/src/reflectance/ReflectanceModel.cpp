@@ -5,8 +5,8 @@
 namespace weft {
 namespace {
 
-void append(std::vector<std::string>& channels, const std::vector<std::string>& numbers, FitColor color) {
-  if (color == FitColor::Luminance) {
+void append(std::vector<std::string>& channels, const std::vector<std::string>& numbers, int colorChannels) {
+  if (colorChannels == 1) {
     channels.insert(channels.end(), numbers.begin(), numbers.end());
     return;
   }
@@ -14,27 +14,44 @@ void append(std::vector<std::string>& channels, const std::vector<std::string>& 
     for (const std::string& number : numbers) channels.push_back(number + suffix);
 }
 
+// Numbers a colour channel, of the shared ones or a layer's.
+std::size_t numbersOf(std::size_t channels, int colorChannels) {
+  const auto count = static_cast<std::size_t>(colorChannels);
+  WEFT_EXPECT(channels % count == 0, "every colour channel has the model's numbers");
+  return channels / count;
+}
+
 }  // namespace
+
+ReflectanceModel::ReflectanceModel(ModelOptions options)
+    : options_(std::move(options)),
+      colorChannels_(options_.has("color") && options_.word("color") == "rgb" ? 3 : 1) {}
+
+Result<std::shared_ptr<const ReflectanceModel>> ReflectanceModel::bind(
+    std::shared_ptr<const FieldTables>) const {
+  contractBroken(__FILE__, __LINE__, "the model has tables");
+}
 
 std::vector<std::string> ReflectanceModel::sharedChannels() const {
   std::vector<std::string> channels{"R", "G", "B"};
-  append(channels, sharedNumbers(), description_.color);
+  append(channels, sharedNumbers(), colorChannels_);
   return channels;
 }
 
 std::vector<std::string> ReflectanceModel::layerChannels() const {
   std::vector<std::string> channels;
-  append(channels, layerNumbers(), description_.color);
+  append(channels, layerNumbers(), colorChannels_);
   return channels;
 }
 
 glm::vec3 ReflectanceModel::evaluateColor(std::span<const float> shared, std::span<const float> layer,
                                           glm::vec3 light, glm::vec3 view) const {
+  WEFT_EXPECT(shared.size() >= 3, "shared numbers begin with the base colour");
   const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
   shared = shared.subspan(3);
-  if (description_.color == FitColor::Luminance) return evaluate(shared, layer, light, view) * baseColor;
-  const std::size_t sharedCount = shared.size() / 3;
-  const std::size_t layerCount = layer.size() / 3;
+  if (colorChannels_ == 1) return evaluate(shared, layer, light, view) * baseColor;
+  const std::size_t sharedCount = numbersOf(shared.size(), 3);
+  const std::size_t layerCount = numbersOf(layer.size(), 3);
   glm::vec3 color;
   for (std::size_t c = 0; c < 3; ++c)
     color[static_cast<int>(c)] = evaluate(shared.subspan(c * sharedCount, sharedCount),
@@ -56,10 +73,12 @@ void ReflectanceModel::evaluateLights(std::span<const float> shared, std::span<c
 void ReflectanceModel::evaluateColors(std::span<const float> shared, std::span<const float> layer,
                                       std::span<const glm::vec3> lights, glm::vec3 view,
                                       std::span<glm::vec3> colors) const {
+  WEFT_EXPECT(shared.size() >= 3, "shared numbers begin with the base colour");
   const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
-  const auto channels = static_cast<std::size_t>(colorChannels());
-  const std::size_t sharedCount = (shared.size() - 3) / channels;
-  const std::size_t layerCount = layer.size() / channels;
+  const auto channels = static_cast<std::size_t>(colorChannels_);
+  const std::size_t sharedCount = numbersOf(shared.size() - 3, colorChannels_);
+  const std::size_t layerCount = numbersOf(layer.size(), colorChannels_);
+  WEFT_EXPECT(colors.size() == lights.size(), "there is room for a colour a light");
   std::vector<float> values(lights.size());
   for (std::size_t c = 0; c < channels; ++c) {
     evaluateLights(shared.subspan(3 + c * sharedCount, sharedCount),
@@ -74,10 +93,11 @@ void ReflectanceModel::evaluateColors(std::span<const float> shared, std::span<c
 
 glm::vec3 ReflectanceModel::colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer,
                                                   glm::vec3 view, const SurfaceLight& light) const {
+  WEFT_EXPECT(shared.size() >= 3, "shared numbers begin with the base colour");
   const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
-  const auto channels = static_cast<std::size_t>(colorChannels());
-  const std::size_t sharedCount = (shared.size() - 3) / channels;
-  const std::size_t layerCount = layer.size() / channels;
+  const auto channels = static_cast<std::size_t>(colorChannels_);
+  const std::size_t sharedCount = numbersOf(shared.size() - 3, colorChannels_);
+  const std::size_t layerCount = numbersOf(layer.size(), colorChannels_);
   glm::vec3 value(0.0f);
   for (std::size_t c = 0; c < channels; ++c) {
     const glm::vec3 ofChannel = underEnvironment(shared.subspan(3 + c * sharedCount, sharedCount),

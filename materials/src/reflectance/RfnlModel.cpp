@@ -12,29 +12,43 @@
 
 namespace weft {
 
-Result<std::shared_ptr<const ReflectanceModel>> RfnlModel::create(const ModelDescription& description) {
-  if (description.lobes < 1 || description.lobes > kMaximumLobes)
-    return fail(fmt::format("{} cannot have {} lobes", description.name, description.lobes), {},
-                fmt::format("1 to {}", kMaximumLobes));
-  return std::make_shared<const RfnlModel>(description);
+std::vector<ModelType> RfnlModel::types() {
+  const auto typeOf = [](std::string name, std::string purpose, LayerDirections directions) {
+    return ModelType{std::move(name),
+                     std::move(purpose),
+                     {ModelOption::number("lobes", "cosine lobes a layer", 2, 1, kMaximumLobes),
+                      ModelOption::choice("rho_d",
+                                          "the diffuse albedo: one for all layers, or each its own (smaller "
+                                          "errors, larger file)",
+                                          {{"shared", ""}, {"per-view", "rho_d per view"}}),
+                      ModelOption::color()},
+                     [directions](ModelOptions options) {
+                       return std::make_shared<const RfnlModel>(std::move(options), directions);
+                     }};
+  };
+  return {typeOf("rfnl", "A diffuse albedo and cosine lobes of the light for every view.",
+                 LayerDirections::Views),
+          typeOf("lfnl", "A diffuse albedo and cosine lobes of the view for every light.",
+                 LayerDirections::Lights)};
 }
 
-RfnlModel::RfnlModel(ModelDescription description)
-    : ReflectanceModel(std::move(description)),
-      layerDirections_(this->description().name == "lfnl" ? LayerDirections::Lights
-                                                          : LayerDirections::Views) {}
+RfnlModel::RfnlModel(ModelOptions options, LayerDirections layerDirections)
+    : ReflectanceModel(std::move(options)),
+      layerDirections_(layerDirections),
+      lobes_(this->options().number("lobes")),
+      ownDiffuseAlbedo_(this->options().word("rho_d") == "per-view") {}
 
 std::vector<std::string> RfnlModel::sharedNumbers() const {
-  if (ownDiffuseAlbedo()) return {};
+  if (ownDiffuseAlbedo_) return {};
   return {"rho_d"};
 }
 
 std::vector<std::string> RfnlModel::layerNumbers() const {
   std::vector<std::string> names;
-  for (int j = 0; j < description().lobes; ++j)
+  for (int j = 0; j < lobes_; ++j)
     for (const char* part : {"amplitude", "px", "py", "exponent"})
       names.push_back(fmt::format("lobe{}.{}", j, part));
-  if (ownDiffuseAlbedo()) names.push_back("rho_d");
+  if (ownDiffuseAlbedo_) names.push_back("rho_d");
   return names;
 }
 
@@ -49,7 +63,7 @@ void RfnlModel::evaluateLights(std::span<const float> shared, std::span<const fl
                                std::span<const glm::vec3> lights, glm::vec3 view,
                                std::span<float> values) const {
   std::ranges::fill(values, diffuseAlbedoOf(shared, layer));
-  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = layer.subspan(4 * j, 4);
     const glm::vec3 direction = directionFromParabolic({lobe[1], lobe[2]});
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -64,7 +78,7 @@ void RfnlModel::evaluateLights(std::span<const float> shared, std::span<const fl
 glm::vec3 RfnlModel::underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3,
                                       const SurfaceLight& light) const {
   glm::vec3 value = diffuseAlbedoOf(shared, layer) * light.matt({0, 0, 1});
-  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = layer.subspan(4 * j, 4);
     if (lobe[0] != 0.0f) value += lobe[0] * light.lobe(directionFromParabolic({lobe[1], lobe[2]}), lobe[3]);
   }
@@ -74,7 +88,7 @@ glm::vec3 RfnlModel::underEnvironment(std::span<const float> shared, std::span<c
 // Lobes above the horizon, with log2 of their exponents.
 bool RfnlModel::prepareForEnvironments(std::span<float> layer) const {
   if (!integratesEnvironments()) return false;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(description().lobes); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = layer.subspan(4 * j, 4);
     const CosineLobe above = lobeAboveHorizon(directionFromParabolic({lobe[1], lobe[2]}), lobe[3], {0, 0, 1});
     const glm::vec2 p = parabolicFromDirection(above.direction);
@@ -87,8 +101,7 @@ bool RfnlModel::prepareForEnvironments(std::span<float> layer) const {
 }
 
 std::map<std::string, std::string> RfnlModel::shaderDefines() const {
-  return {{"LOBES", std::to_string(description().lobes)},
-          {"OWN_DIFFUSE_ALBEDO", ownDiffuseAlbedo() ? "1" : "0"}};
+  return {{"LOBES", std::to_string(lobes_)}, {"OWN_DIFFUSE_ALBEDO", ownDiffuseAlbedo_ ? "1" : "0"}};
 }
 
 }  // namespace weft

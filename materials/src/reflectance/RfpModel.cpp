@@ -21,14 +21,19 @@ void polynomials(std::span<const float> a, std::span<const glm::vec3> directions
 
 }  // namespace
 
-Result<std::shared_ptr<const ReflectanceModel>> RfpModel::create(const ModelDescription& description) {
-  return std::make_shared<const RfpModel>(
-      ModelDescription{description.name, 0, DiffuseAlbedo::Shared, description.color});
-}
-
-RfpModel::RfpModel(ModelDescription description)
-    : ReflectanceModel(std::move(description)),
-      layerDirections_(this->description().name == "lfp" ? LayerDirections::Lights : LayerDirections::Views) {
+std::vector<ModelType> RfpModel::types() {
+  const auto typeOf = [](std::string name, std::string purpose, LayerDirections directions) {
+    return ModelType{
+        std::move(name), std::move(purpose), {ModelOption::color()}, [directions](ModelOptions options) {
+          return std::make_shared<const RfpModel>(std::move(options), directions);
+        }};
+  };
+  std::vector<ModelType> types{
+      typeOf("rfp", "A biquadratic polynomial of the light for every view.", LayerDirections::Views),
+      typeOf("lfp", "A biquadratic polynomial of the view for every light.", LayerDirections::Lights),
+      typeOf("ptm", "A polynomial texture map: rfp of a single view.", LayerDirections::Views)};
+  types.back().fitsStoredValues = true;
+  return types;
 }
 
 std::vector<std::string> RfpModel::layerNumbers() const {

@@ -120,7 +120,7 @@ TEST(BumpFitter, LightsThatDoNotDetermineANormalAreRefused) {
 
 TEST(BumpFitter, ColourChannelsHaveNoNormalsOfTheirOwn) {
   FitOptions options = bumpOptions();
-  options.model.color = FitColor::Rgb;
+  options.model.options["color"] = "rgb";
   const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
   EXPECT_FALSE(fitReflectanceField(source, options));
 }

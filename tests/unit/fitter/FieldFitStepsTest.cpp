@@ -80,7 +80,7 @@ TEST(FieldFitSteps, RowsOfAnotherFitAreRefused) {
   FitOptions options = optionsWith(test::testFolder() / "parts");
   FieldFit fit = valueOf(FieldFit::create(source, options));
   ASSERT_TRUE(fit.fitRows(0, 2, {}));
-  options.model.color = FitColor::Rgb;
+  options.model.options["color"] = "rgb";
   EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
   options = optionsWith(options.partsFolder);
   options.crop = Crop{0, 0, 3, 8};

@@ -19,7 +19,7 @@ using test::valueOf;
 FitOptions optionsFor(const std::string& model, int lobes) {
   FitOptions options;
   options.model.name = model;
-  options.model.lobes = lobes;
+  options.model.options["lobes"] = lobes;
   return options;
 }
 
@@ -74,7 +74,7 @@ TEST(LafFit, EachColorChannelMayHaveLobesOfItsOwn) {
   });
   for (const char* model : {"laf", "slaf"}) {
     FitOptions options = optionsFor(model, 2);
-    options.model.color = FitColor::Rgb;
+    options.model.options["color"] = "rgb";
     EXPECT_LT(valueOf(fitReflectanceField(source, options))
                   .errors.of(ErrorSpace::Linear, ErrorMeasure::Rgb)
                   .average,

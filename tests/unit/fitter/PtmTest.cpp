@@ -42,7 +42,7 @@ TEST_P(PtmOfRealPhotographs, EqualsLeastSquaresByAHouseholderDecomposition) {
   options.precision = Precision::Float;
   options.crop = crop;
   const FitResult luminanceFit = valueOf(fitReflectanceField(*source, options));
-  options.model.color = FitColor::Rgb;
+  options.model.options["color"] = "rgb";
   const FitResult rgbFit = valueOf(fitReflectanceField(*source, options));
 
   std::vector<glm::vec3> stored(rows.pairs());

@@ -43,7 +43,7 @@ TEST_P(WhitePixel, NoLightMakesOne) {
   const BtfDescription& measured = source.description();
   FitOptions options;
   options.model.name = GetParam().name;
-  options.model.lobes = GetParam().lobes;
+  if (GetParam().lobes > 0) options.model.options["lobes"] = GetParam().lobes;
   options.space = GetParam().space;
   const FitResult fit = valueOf(fitReflectanceField(source, options));
 

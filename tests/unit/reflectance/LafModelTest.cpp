@@ -18,7 +18,7 @@ using test::valueOf;
 
 // Lafortune's own form, (C . P)^n, has the amplitude inside.
 TEST(LafModel, IsLafortunesFormula) {
-  const auto model = valueOf(ModelRegistry::builtin().create({.name = "laf", .lobes = 2}));
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "laf", .options = {{"lobes", 2}}}));
   EXPECT_EQ(model->layerDirections(), LayerDirections::None);
   const glm::vec3 mirror(-1.1f, -0.9f, 1.05f);
   const glm::vec3 grazing(0.3f, 0.8f, -0.5f);
@@ -43,8 +43,8 @@ TEST(LafModel, IsLafortunesFormula) {
 }
 
 TEST(LafModel, SlafIsThatTimesTheViewFactor) {
-  const auto laf = valueOf(ModelRegistry::builtin().create({.name = "laf", .lobes = 1}));
-  const auto slaf = valueOf(ModelRegistry::builtin().create({.name = "slaf", .lobes = 1}));
+  const auto laf = valueOf(ModelRegistry::builtin().create({.name = "laf", .options = {{"lobes", 1}}}));
+  const auto slaf = valueOf(ModelRegistry::builtin().create({.name = "slaf", .options = {{"lobes", 1}}}));
   EXPECT_EQ(slaf->layerDirections(), LayerDirections::Views);
   const std::array shared{0.1f, 0.5f, -1.0f, -0.75f, 3.0f};
   const std::array factor{0.25f};
@@ -67,15 +67,16 @@ TEST(LafModel, PackedAxesComeBackAndAnyTwoNumbersAreAxes) {
 TEST(LafModel, OneToTenLobes) {
   const ModelRegistry registry = ModelRegistry::builtin();
   for (const char* name : {"laf", "slaf"}) {
-    EXPECT_EQ(valueOf(registry.create({.name = name, .lobes = 10}))->sharedNumbers().size(), 41u);
-    EXPECT_FALSE(registry.create({.name = name, .lobes = 0}));
-    EXPECT_FALSE(registry.create({.name = name, .lobes = 11}));
+    EXPECT_EQ(valueOf(registry.create({.name = name, .options = {{"lobes", 10}}}))->sharedNumbers().size(),
+              41u);
+    EXPECT_FALSE(registry.create({.name = name, .options = {{"lobes", 0}}}));
+    EXPECT_FALSE(registry.create({.name = name, .options = {{"lobes", 11}}}));
   }
 }
 
 // Nothing holds a formula of the view where no view was measured.
 TEST(LafModel, IsSeenFromNoLowerViewThanMeasured) {
-  const auto model = valueOf(ModelRegistry::builtin().create({.name = "laf", .lobes = 1}));
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "laf", .options = {{"lobes", 1}}}));
   ReflectanceFieldDescription description;
   description.views = {{0, 0, 1}, directionFromDegrees(60, 0), directionFromDegrees(60, 120)};
   description.lights = {{0, 0, 1}};

@@ -7,6 +7,7 @@
 
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 namespace {

@@ -1,4 +1,4 @@
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(ReflectanceModel, NegativeValuesBecomeBlack) {
 }
 
 TEST(ReflectanceModel, RfnlLobesAreCosinePowersAroundTheirDirections) {
-  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfnl", .lobes = 2}));
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfnl", .options = {{"lobes", 2}}}));
   const glm::vec3 first = directionFromDegrees(30, 20);
   const glm::vec3 second = directionFromDegrees(60, 200);
   const glm::vec2 p = parabolicFromDirection(first);
@@ -57,7 +57,7 @@ TEST(ReflectanceModel, RfnlLobesAreCosinePowersAroundTheirDirections) {
 
 TEST(ReflectanceModel, RfnlMayHaveADiffuseAlbedoOfEachViewsOwn) {
   const auto model = valueOf(
-      ModelRegistry::builtin().create({.name = "rfnl", .lobes = 1, .diffuseAlbedo = DiffuseAlbedo::PerView}));
+      ModelRegistry::builtin().create({.name = "rfnl", .options = {{"lobes", 1}, {"rho_d", "per-view"}}}));
   EXPECT_EQ(model->sharedChannels().size(), 3u);
   ASSERT_EQ(model->layerChannels().back(), "rho_d");
   const std::array shared{1.0f, 1.0f, 1.0f};
@@ -72,16 +72,19 @@ TEST(ReflectanceModel, LightFieldsHaveLightAndViewExchanged) {
   const std::array lobe{0.7f, 0.1f, 0.2f, 12.0f};
   const std::array diffuse{0.1f};
   const ModelRegistry registry = ModelRegistry::builtin();
-  const auto model = [&](const char* name) { return valueOf(registry.create({.name = name, .lobes = 1})); };
+  const auto model = [&](const char* name) { return valueOf(registry.create({.name = name})); };
+  const auto lobed = [&](const char* name) {
+    return valueOf(registry.create({.name = name, .options = {{"lobes", 1}}}));
+  };
   EXPECT_EQ(model("lfp")->layerDirections(), LayerDirections::Lights);
   EXPECT_EQ(model("lfp")->evaluate({}, polynomial, light, view),
             model("rfp")->evaluate({}, polynomial, view, light));
-  EXPECT_EQ(model("lfnl")->evaluate(diffuse, lobe, light, view),
-            model("rfnl")->evaluate(diffuse, lobe, view, light));
+  EXPECT_EQ(lobed("lfnl")->evaluate(diffuse, lobe, light, view),
+            lobed("rfnl")->evaluate(diffuse, lobe, view, light));
 }
 
 TEST(ReflectanceModel, EachColorChannelMayHaveNumbersOfItsOwn) {
-  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp", .color = FitColor::Rgb}));
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp", .options = {{"color", "rgb"}}}));
   const std::vector<std::string> channels = model->layerChannels();
   ASSERT_EQ(channels.size(), 18u);
   EXPECT_EQ(channels[0], "a0.R");
@@ -119,8 +122,8 @@ TEST(ReflectanceModel, UnknownModelsAndImpossibleLobesAreRefused) {
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message().find("magic"), std::string::npos);
   EXPECT_NE(unknown.error().hint.find("rfnl"), std::string::npos);
-  EXPECT_FALSE(registry.create({.name = "rfnl", .lobes = 0}));
-  EXPECT_FALSE(registry.create({.name = "rfnl", .lobes = 5}));
+  EXPECT_FALSE(registry.create({.name = "rfnl", .options = {{"lobes", 0}}}));
+  EXPECT_FALSE(registry.create({.name = "rfnl", .options = {{"lobes", 5}}}));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "weft/fitter/TexelFitter.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/measurement/Crop.h"
+#include "weft/reflectance/ModelRegistry.h"
 #include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {
@@ -25,6 +26,8 @@ enum class FitSpace {
 /// How a fit is made. Every default is what most users want.
 struct FitOptions {
   ModelDescription model;
+  ModelRegistry models = ModelRegistry::builtin();     ///< among which the model is
+  FitterRegistry fitters = FitterRegistry::builtin();  ///< and its fitter
   Precision precision = Precision::Half;  ///< of the stored numbers; half changes eps by less than 0.0001
   /// True: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading. Values in
   /// FitSpace::Stored and of models that say so (containsCosine()) always contain it.

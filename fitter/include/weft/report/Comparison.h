@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@ struct ComparisonOptions {
 };
 
 /// Models by name as the papers compare them: laf and slaf with four lobes, rfnl and lfnl with two, rfnl both
-/// with one diffuse albedo for all views and with one a view. Fails on unknown names.
-Result<std::vector<ModelDescription>> comparedModels(const std::vector<std::string>& names);
+/// with one diffuse albedo for all views and with one a view. `options` say otherwise, for those models that
+/// have them. Fails on unknown names, values out of range and options that none of the models has.
+Result<std::vector<ModelDescription>> comparedModels(
+    const std::vector<std::string>& names, const std::map<std::string, OptionValue>& options = {},
+    const ModelRegistry& registry = ModelRegistry::builtin());
 
 /// Fits every model and says, for one material, what the papers say of theirs: table 1 and figures 1, 4 and 5
 /// of paper M, table 2 and figure 1 of paper B (those of laf where it is among the models).

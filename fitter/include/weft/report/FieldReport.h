@@ -9,9 +9,6 @@
 
 namespace weft {
 
-/// "rfnl, 2 lobes, rho_d per view": a model for people.
-std::string labelOf(const ModelDescription& model);
-
 /// "0.0123 min .. max" of every space and measure as rows of a table.
 ReportTable errorTable(const FitErrors& errors, std::string caption);
 

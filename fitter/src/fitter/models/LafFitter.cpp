@@ -108,20 +108,19 @@ void write(const LafFit& fit, std::span<float> shared) {
 }  // namespace
 
 Result<std::unique_ptr<TexelFitter>> LafFitter::create(const FitProblem& problem) {
-  const ModelDescription& description = problem.model->description();
   const std::size_t samples = problem.views.size() * problem.lights.size();
   const std::size_t numbers =
       problem.model->sharedNumbers().size() + problem.model->layerNumbers().size() * problem.views.size();
   if (samples < numbers)
     return fail(fmt::format("{} samples a texel do not determine the {} numbers of {}", samples, numbers,
-                            description.name),
+                            problem.model->description().name),
                 {}, "measure more lights or views, or fit fewer lobes");
   return std::unique_ptr<TexelFitter>(new LafFitter(problem));
 }
 
 LafFitter::LafFitter(const FitProblem& problem)
     : solver_({problem.views, problem.lights, problem.cosineInModel, sharpestExponent(problem.lights)}),
-      lobes_(problem.model->description().lobes),
+      lobes_(problem.model->options().number("lobes")),
       hasViewFactor_(problem.model->layerDirections() == LayerDirections::Views) {
   for (const glm::vec3 light : problem.lights)
     cosines_.push_back(problem.cosineInModel ? 1.0f : std::max(light.z, 0.0f));

@@ -330,8 +330,7 @@ float brightestShareOf(const FitProblem& problem) {
 }  // namespace
 
 Result<std::unique_ptr<TexelFitter>> RfnlFitter::create(const FitProblem& problem) {
-  const ModelDescription description = problem.model->description();
-  const std::size_t unknowns = 4 * static_cast<std::size_t>(description.lobes) + 1;
+  const std::size_t unknowns = 4 * static_cast<std::size_t>(problem.model->options().number("lobes")) + 1;
   if (problem.lights.size() < unknowns)
     return fail(fmt::format("{} directions do not determine the {} numbers of a layer of lobes",
                             problem.lights.size(), unknowns),
@@ -344,8 +343,8 @@ Result<std::unique_ptr<TexelFitter>> RfnlFitter::createForLights(const FitProble
 }
 
 RfnlFitter::RfnlFitter(const FitProblem& problem)
-    : lobes_(problem.model->description().lobes),
-      ownDiffuseAlbedo_(problem.model->description().diffuseAlbedo == DiffuseAlbedo::PerView),
+    : lobes_(problem.model->options().number("lobes")),
+      ownDiffuseAlbedo_(problem.model->options().word("rho_d") == "per-view"),
       modelHasCosine_(problem.cosineInModel),
       layersAreViews_(problem.model->layerDirections() == LayerDirections::Views),
       brightestShare_(brightestShareOf(problem)) {

@@ -10,6 +10,7 @@
 
 #include "weft/core/Result.h"
 #include "weft/materials/BTFMaterial.h"
+#include "weft/reflectance/ModelRegistry.h"
 #include "weft/scenegraph/Bounds.h"
 #include "weft/scenegraph/Camera.h"
 #include "weft/scenegraph/Material.h"
@@ -38,6 +39,8 @@ struct GltfOptions {
   bool lights = true;  ///< false leaves the file's lights out, for a program that brings its own
   /// For materials with WEFT_materials_btf; textureScale is multiplied by the extension's `scale`.
   BTFMaterialOptions btf{};
+  /// That their fields may be of.
+  ModelRegistry models = ModelRegistry::builtin();
   /// Poses the scene as one of its animations has it so many seconds after its start; none: as it was
   /// modelled. Before the first and after the last key a value stays as it is there.
   std::optional<double> time{};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 
@@ -13,8 +13,8 @@ namespace weft {
 /// stored in parabolic coordinates. The value contains the cosine, of the texel's own normal.
 class BumpModel : public ReflectanceModel {
  public:
-  /// Luminance alone: a texel has one normal.
-  static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
+  /// `bump`; without the option `color`: the colour channels of a texel have one normal.
+  static std::vector<ModelType> types();
   using ReflectanceModel::ReflectanceModel;
 
   LayerDirections layerDirections() const override { return LayerDirections::None; }

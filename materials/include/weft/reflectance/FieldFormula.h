@@ -50,7 +50,8 @@ class FieldFormula {
   /// The z of the outermost measured views: below them, models are shown the view on their ring.
   float lowestViewZ() const { return lowestViewZ_; }
 
-  /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.
+  /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon. Here and
+  /// below, spans are as long as the model's lists of channels.
   ///
   /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured ring are
   /// evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never extrapolated and
@@ -73,9 +74,12 @@ class FieldFormula {
 
  private:
   glm::vec3 modelledLight(glm::vec3 light, float& factor) const;
+  void expectNumbers(std::span<const float> shared, std::span<const float> layer) const;
 
   std::shared_ptr<const ReflectanceModel> model_;
   HemisphereTriangulation triangulation_;
+  std::size_t sharedNumbers_ = 0;
+  std::size_t layerNumbers_ = 0;
   int layerCount_ = 0;
   bool hasCosine_ = false;
   Encoding encoding_ = Encoding::Linear;

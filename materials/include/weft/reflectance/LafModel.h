@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 
@@ -19,9 +19,9 @@ class LafModel : public ReflectanceModel {
  public:
   static constexpr int kMaximumLobes = 10;
 
-  /// 1 to kMaximumLobes lobes.
-  static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
-  using ReflectanceModel::ReflectanceModel;
+  /// `laf` and `slaf`.
+  static std::vector<ModelType> types();
+  LafModel(ModelOptions options, bool hasViewFactor);
 
   LayerDirections layerDirections() const override;
   std::vector<std::string> sharedNumbers() const override;
@@ -34,8 +34,11 @@ class LafModel : public ReflectanceModel {
   std::string shaderFile() const override { return "laf.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
+  int lobes() const { return lobes_; }
+
  private:
-  bool hasViewFactor() const { return description().name == "slaf"; }
+  int lobes_;
+  bool hasViewFactor_;
 };
 
 /// Axes with max(|x|, |y|, z) = 1 from two numbers (p, q): with s = max(1, |p|, |q|) they are (p / s, q / s,

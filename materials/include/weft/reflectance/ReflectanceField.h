@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <vector>
 
 #include "weft/core/FloatImage.h"
 #include "weft/core/Result.h"
@@ -10,30 +11,48 @@
 
 namespace weft {
 
+/// The numbers of every texel at one resolution.
+struct FieldLevel {
+  FloatImage shared;  ///< one layer, the model's shared channels
+  FloatImage layers;  ///< a layer a view or light, the model's layer channels; empty for a model without
+};
+
 /// A fitted material in memory: the numbers of a ReflectanceModel for every texel and layer, and the CPU
 /// reference of how they are shaded (paper M eq. 4).
+///
+/// The same at one resolution or more, *levels*, of which each has half the sides of the one before, and
+/// *tables*, which a model may share between all texels.
 ///
 /// Values are in units of a white Lambertian surface lit head-on: radiance = value x irradiance / pi, n.l
 /// included. Immutable, thread safe.
 class ReflectanceField {
  public:
-  /// `shared`: one layer, the model's shared channels; `layers`: a layer a view or light, the model's layer
-  /// channels, empty for a model without. Fails when shapes, channel names or directions do not fit together
-  /// or a number is not finite.
+  /// Level 0 is the finest, the sides of level i are its sides halved i times, rounded down, at least 1.
+  /// Binds the model to the tables. Fails when there is no level, when sizes, channel names, directions or
+  /// tables do not fit together, or where a number is not finite.
+  static Result<ReflectanceField> create(std::shared_ptr<const ReflectanceModel> model,
+                                         ReflectanceFieldDescription description,
+                                         std::vector<FieldLevel> levels, FieldTables tables = {});
+  /// A field of one level without tables.
   static Result<ReflectanceField> create(std::shared_ptr<const ReflectanceModel> model,
                                          ReflectanceFieldDescription description, FloatImage shared,
                                          FloatImage layers);
 
-  int width() const { return shared_.width(); }
-  int height() const { return shared_.height(); }
+  /// Of level 0.
+  int width() const { return shared().width(); }
+  int height() const { return shared().height(); }
+  const FloatImage& shared() const { return levels_.front().shared; }
+  const FloatImage& layers() const { return levels_.front().layers; }
+
+  /// Bound to its tables.
   const ReflectanceModel& model() const { return formula_.model(); }
   const FieldFormula& formula() const { return formula_; }
   const ReflectanceFieldDescription& description() const { return description_; }
-  const FloatImage& shared() const { return shared_; }
-  const FloatImage& layers() const { return layers_; }
+  const std::vector<FieldLevel>& levels() const { return levels_; }
+  const FieldTables& tables() const { return *tables_; }
 
-  /// The value of one texel, n.l included, of one layer alone; 0 for lights below the horizon. `layer` does
-  /// not matter for a model without layers.
+  /// The value of one texel of level 0, n.l included, of one layer alone; 0 for lights below the horizon.
+  /// `layer` does not matter for a model without layers.
   glm::vec3 evaluateLayer(int x, int y, int layer, glm::vec3 light, glm::vec3 view) const;
   /// The same interpolated between three layers with the given weights.
   glm::vec3 evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const;
@@ -47,8 +66,11 @@ class ReflectanceField {
 
   FieldFormula formula_;
   ReflectanceFieldDescription description_;
-  FloatImage shared_;
-  FloatImage layers_;
+  std::vector<FieldLevel> levels_;
+  std::shared_ptr<const FieldTables> tables_;
 };
+
+/// The side of level `level` where that of level 0 is `side`.
+int sideOfLevel(int side, int level);
 
 }  // namespace weft

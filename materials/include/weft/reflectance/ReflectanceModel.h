@@ -9,16 +9,11 @@
 #include <vector>
 
 #include "weft/core/Result.h"
+#include "weft/reflectance/FieldTables.h"
+#include "weft/reflectance/ModelOptions.h"
 #include "weft/reflectance/SurfaceLight.h"
 
 namespace weft {
-
-/// Whether all views of a texel share one diffuse albedo, as in paper M eq. 1, or each has its own.
-enum class DiffuseAlbedo { Shared, PerView };
-
-/// What a model's numbers describe: luminance, which the texel's base colour turns into RGB, or each colour
-/// channel by itself, as multiples of the base colour.
-enum class FitColor { Luminance, Rgb };
 
 /// The directions for which a model has a set of numbers each, a *layer*. Between them values are
 /// interpolated.
@@ -28,14 +23,6 @@ enum class LayerDirections {
   Lights,  ///< the measured lights: a light field, LF_l(x, v) (paper M 3.1)
 };
 
-/// What a file or a command line says of a model; the registry makes the model from it.
-struct ModelDescription {
-  std::string name = "rfnl";
-  int lobes = 2;  ///< of the models that have lobes, else 0
-  DiffuseAlbedo diffuseAlbedo = DiffuseAlbedo::Shared;
-  FitColor color = FitColor::Luminance;
-};
-
 /// The formula of one reflectance model: what its numbers are called and what they evaluate to. The CPU
 /// reference for the GLSL file of the same name.
 ///
@@ -43,10 +30,12 @@ struct ModelDescription {
 /// all: layerDirections()). Immutable, thread safe.
 class ReflectanceModel {
  public:
-  explicit ReflectanceModel(ModelDescription description) : description_(std::move(description)) {}
+  explicit ReflectanceModel(ModelOptions options);
   virtual ~ReflectanceModel() = default;
 
-  const ModelDescription& description() const { return description_; }
+  /// Its name, and a value for every option that its type declares.
+  const ModelDescription& description() const { return options_.description(); }
+  const ModelOptions& options() const { return options_; }
   virtual LayerDirections layerDirections() const { return LayerDirections::Views; }
   /// Whether evaluate() gives values that contain n.l by its very formula; else that is up to the fit.
   virtual bool containsCosine() const { return false; }
@@ -55,6 +44,12 @@ class ReflectanceModel {
   virtual std::vector<std::string> sharedNumbers() const { return {}; }
   /// Names of one layer's numbers, likewise.
   virtual std::vector<std::string> layerNumbers() const { return {}; }
+  /// The tables that it evaluates with.
+  virtual std::vector<ModelTable> tables() const { return {}; }
+  /// This model with its tables, which are all there and of the declared shapes (boundModel()). Only models
+  /// that declare tables are asked; others of theirs are never evaluated. Fails on contents that are none.
+  virtual Result<std::shared_ptr<const ReflectanceModel>> bind(
+      std::shared_ptr<const FieldTables> tables) const;
   /// What the base colour is multiplied by for unit directions in the tangent frame, clamped at 0
   /// (models.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the lists of names.
   virtual float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
@@ -75,12 +70,14 @@ class ReflectanceModel {
   virtual bool prepareForEnvironments(std::span<float>) const { return false; }
   /// The GLSL file that computes the same ("rfnl.glsl"), and `#define`s for it.
   virtual std::string shaderFile() const = 0;
+  /// The text of that file, for models that are not part of Weft; empty: one of shaders/.
+  virtual std::string shaderText() const { return {}; }
   virtual std::map<std::string, std::string> shaderDefines() const { return {}; }
 
-  /// 1, or 3 with FitColor::Rgb.
-  int colorChannels() const { return description_.color == FitColor::Rgb ? 3 : 1; }
+  /// 1, or 3 where the option `color` is "rgb" (ModelOption::color()).
+  int colorChannels() const { return colorChannels_; }
   /// The channels of a field's shared image: the base colour, then the shared numbers, of red, green and blue
-  /// one after another with FitColor::Rgb ("rho_d.R").
+  /// one after another with three colour channels ("rho_d.R").
   std::vector<std::string> sharedChannels() const;
   /// The channels of a field's layers, likewise.
   std::vector<std::string> layerChannels() const;
@@ -101,29 +98,13 @@ class ReflectanceModel {
   }
 
  private:
-  ModelDescription description_;
+  ModelOptions options_;
+  int colorChannels_;
 };
 
 /// How many RGBA texels a colour channel of a model needs on the GPU (shaders/field_numbers.glsl): shared
 /// ones, the first of which begins with the base colour, and those of a layer.
 int sharedTexels(const ReflectanceModel& model);
 int layerTexels(const ReflectanceModel& model);
-
-/// Makes models by name. A value: build your own, or start from builtin() and add to it.
-class ModelRegistry {
- public:
-  using Factory = Result<std::shared_ptr<const ReflectanceModel>> (*)(const ModelDescription&);
-
-  /// Every model of Weft.
-  static ModelRegistry builtin();
-
-  void add(std::string name, Factory factory);
-  std::vector<std::string> names() const;
-  /// Fails on an unknown name and on options that the model does not have.
-  Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description) const;
-
- private:
-  std::vector<std::pair<std::string, Factory>> factories_;
-};
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 
@@ -16,9 +16,9 @@ class RfnlModel : public ReflectanceModel {
  public:
   static constexpr int kMaximumLobes = 4;
 
-  /// 1 to kMaximumLobes lobes.
-  static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
-  explicit RfnlModel(ModelDescription description);
+  /// `rfnl` and `lfnl`.
+  static std::vector<ModelType> types();
+  RfnlModel(ModelOptions options, LayerDirections layerDirections);
 
   LayerDirections layerDirections() const override { return layerDirections_; }
   std::vector<std::string> sharedNumbers() const override;
@@ -35,13 +35,18 @@ class RfnlModel : public ReflectanceModel {
   std::string shaderFile() const override { return "rfnl.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
+  int lobes() const { return lobes_; }
+  /// Whether each layer has a rho_d of its own.
+  bool ownDiffuseAlbedo() const { return ownDiffuseAlbedo_; }
+
  private:
   float diffuseAlbedoOf(std::span<const float> shared, std::span<const float> layer) const {
-    return ownDiffuseAlbedo() ? layer.back() : shared[0];
+    return ownDiffuseAlbedo_ ? layer.back() : shared[0];
   }
-  bool ownDiffuseAlbedo() const { return description().diffuseAlbedo == DiffuseAlbedo::PerView; }
 
   LayerDirections layerDirections_;
+  int lobes_;
+  bool ownDiffuseAlbedo_;
 };
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 
@@ -11,8 +11,10 @@ namespace weft {
 /// texture maps are, by plain least squares.
 class RfpModel : public ReflectanceModel {
  public:
-  static Result<std::shared_ptr<const ReflectanceModel>> create(const ModelDescription& description);
-  explicit RfpModel(ModelDescription description);
+  /// `rfp`, `lfp` and `ptm`.
+  static std::vector<ModelType> types();
+  RfpModel(ModelOptions options, LayerDirections layerDirections)
+      : ReflectanceModel(std::move(options)), layerDirections_(layerDirections) {}
 
   LayerDirections layerDirections() const override { return layerDirections_; }
   std::vector<std::string> layerNumbers() const override;
