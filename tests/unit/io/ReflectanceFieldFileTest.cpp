@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 
+#include "RampModel.h"
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -66,6 +67,23 @@ std::string errorOf(const fs::path& file) {
   return field ? "read" : field.error().message();
 }
 
+// A copy of a file whose manifest has something else in one place.
+void copyWithManifest(const fs::path& from, const fs::path& to, const std::string& what,
+                      const std::string& with) {
+  Imf::MultiPartInputFile source(from.c_str());
+  std::vector<Imf::Header> headers;
+  for (int part = 0; part < source.parts(); ++part) headers.push_back(source.header(part));
+  auto& attribute = headers[0].typedAttribute<Imf::StringAttribute>("weftReflectanceField");
+  const std::size_t at = attribute.value().find(what);
+  ASSERT_NE(at, std::string::npos) << what;
+  attribute.value().replace(at, what.size(), with);
+  Imf::MultiPartOutputFile target(to.c_str(), headers.data(), source.parts());
+  for (int part = 0; part < source.parts(); ++part) {
+    Imf::InputPart pixels(source, part);
+    Imf::OutputPart(target, part).copyPixels(pixels);
+  }
+}
+
 TEST(ReflectanceFieldFile, KeepsEverything) {
   const fs::path folder = test::testFolder();
   const fs::path file = folder / "a.rf.exr";
@@ -86,6 +104,83 @@ TEST(ReflectanceFieldFile, KeepsEverything) {
       expectEqual(read.layers(), written.layers());
     }
   EXPECT_THAT(test::namesIn(folder), testing::ElementsAre("a.rf.exr"));
+}
+
+// Three levels, the last of one texel, and a table whose channels are not in a file's order.
+ReflectanceField rampField() {
+  const ModelRegistry models = test::RampModel::registry();
+  const auto model = valueOf(models.create({"ramp", {{"power", 2}}}));
+  ReflectanceFieldDescription about;
+  about.views = about.lights = {directionFromDegrees(0, 0), directionFromDegrees(33.3, 10)};
+  std::vector<FieldLevel> levels;
+  for (const auto& [width, height] : {std::pair(5, 2), {2, 1}, {1, 1}}) {
+    levels.push_back({FloatImage(width, height, model->sharedChannels()),
+                      FloatImage(width, height, model->layerChannels(), 2)});
+    for (FloatImage* image : {&levels.back().shared, &levels.back().layers})
+      for (std::size_t i = 0; i < image->values().size(); ++i)
+        image->values()[i] = std::sin(0.7f * static_cast<float>(i + levels.size()));
+  }
+  levels[1].layers.roundToHalf();
+  FloatImage ramp(7, 1, {"value"});
+  for (int x = 0; x < 7; ++x) ramp.at(x, 0, 0) = 0.1f * static_cast<float>(x);
+  return valueOf(ReflectanceField::create(model, about, levels, {{"ramp", ramp}}));
+}
+
+TEST(ReflectanceFieldFile, KeepsLevelsTablesAndOptions) {
+  const fs::path path = test::testFolder() / "a.rf.exr";
+  const ReflectanceField written = rampField();
+  requireDone(writeReflectanceField(written, path));
+  const ReflectanceField read = valueOf(readReflectanceField(path, test::RampModel::registry()));
+  EXPECT_EQ(read.model().description(), written.model().description());
+  ASSERT_EQ(read.levels().size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    expectEqual(read.levels()[i].shared, written.levels()[i].shared);
+    expectEqual(read.levels()[i].layers, written.levels()[i].layers);
+  }
+  expectEqual(read.tables().at("ramp"), written.tables().at("ramp"));
+  EXPECT_EQ(read.evaluate(3, 1, {0, 0, 1}, {0, 0, 1}), written.evaluate(3, 1, {0, 0, 1}, {0, 0, 1}));
+
+  const Imf::MultiPartInputFile file(path.c_str());
+  std::vector<std::string> names;
+  for (int part = 0; part < file.parts(); ++part) names.push_back(file.header(part).name());
+  EXPECT_THAT(names, testing::ElementsAre("shared", "view000", "view001", "level1.shared", "level1.view000",
+                                          "level1.view001", "level2.shared", "level2.view000",
+                                          "level2.view001", "table.ramp"));
+}
+
+TEST(ReflectanceFieldFile, ARegistryWithoutTheModelSaysWhichItHas) {
+  const fs::path path = test::testFolder() / "a.rf.exr";
+  requireDone(writeReflectanceField(rampField(), path));
+  EXPECT_EQ(errorOf(path), path.string() +
+                               ": unknown model 'ramp' (known are rfp, lfp, ptm, rfnl, lfnl, "
+                               "laf, slaf, bump)");
+}
+
+// The manifest of a file, changed in one place.
+TEST(ReflectanceFieldFile, RefusesOptionsLevelsAndTablesThatDoNotFit) {
+  const fs::path folder = test::testFolder();
+  requireDone(writeReflectanceField(rampField(), folder / "good.rf.exr"));
+  const std::vector<std::tuple<std::string, std::string, std::string>> changes{
+      {R"("power":2)", R"("power":7)", "'power' of the model 'ramp' cannot be 7 (0 to 3)"},
+      {R"("power":2)", R"("power":2.5)", "the option 'power' is neither a word nor a whole number"},
+      {R"("power":2)", R"("power":99999999999)", "the option 'power' is neither a word nor a whole number"},
+      {R"("power":2)", R"("lobes":2)", "the model 'ramp' has no option 'lobes' (its options are power)"},
+      {R"("options":{"power":2})", R"("options":2)", "the options of the model are not an object"},
+      {R"("width":5)", R"("width":6)", "level 0 has 5 x 2 texels, not 6 x 2 as the manifest says"},
+      {R"(,{"width":1,"height":1})", "", "the manifest describes 7 parts, the file has 10"},
+      {R"("levels":[{)", R"("levels":[],"others":[{)", "the levels are not a list of sizes"},
+      {R"("tables":["ramp"])", R"("tables":[])", "the manifest describes 9 parts, the file has 10"},
+      {R"("tables":["ramp"])", R"("tables":["stairs"])", "the model 'ramp' has no table 'stairs'"},
+      {R"("tables":["ramp"])", R"("tables":["ramp","ramp"])", "not in alphabetical order"},
+      {R"("version":3)", R"("version":4)", "the file has format version 4, this Weft reads versions 2 to 3"},
+      {R"("version":3)", R"("version":1)", "the file has format version 1, this Weft reads versions 2 to 3"},
+  };
+  for (const auto& [what, with, message] : changes) {
+    copyWithManifest(folder / "good.rf.exr", folder / "bad.rf.exr", what, with);
+    const auto field = readReflectanceField(folder / "bad.rf.exr", test::RampModel::registry());
+    ASSERT_FALSE(field) << message;
+    EXPECT_THAT(field.error().message(), AllOf(HasSubstr("bad.rf.exr: "), HasSubstr(message)));
+  }
 }
 
 TEST(ReflectanceFieldFile, WritesEqualBytesWhateverItsName) {
