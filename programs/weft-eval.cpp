@@ -12,6 +12,7 @@
 #include "weft/io/ExrFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
+#include "weft/reflectance/FieldTextures.h"
 #include "weft/report/FieldReport.h"
 #include "weft/tool/Tool.h"
 

@@ -9,6 +9,7 @@
 #include "weft/core/FileKind.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
+#include "weft/reflectance/FieldTextures.h"
 #include "weft/tool/Tool.h"
 
 namespace {

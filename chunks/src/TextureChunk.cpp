@@ -37,8 +37,8 @@ struct Texels {
   int width = 0;
   int height = 0;
   int layers = 0;
-  const void* values = nullptr;
-  std::vector<std::uint8_t> expanded;  ///< what `values` points to where the image had to be converted
+  std::vector<const void*> levels;
+  std::vector<std::uint8_t> expanded;  ///< what `levels` points to where the image had to be converted
 };
 
 GLenum target(TextureShape shape) {
@@ -78,23 +78,34 @@ Texels texelsOf(const FloatImage& image, const TextureOptions&) {
           image.width(),
           image.height(),
           image.layers(),
-          image.values().data(),
+          {image.values().data()},
           {}};
 }
 
 Texels texelsOf(const Image& image, const TextureOptions& options) {
-  Texels texels{byteFormat(image.channels), image.width, image.height, 1, image.bytes.data(), {}};
+  Texels texels{byteFormat(image.channels), image.width, image.height, 1, {image.bytes.data()}, {}};
   if (!options.srgb) return texels;
   if (image.channels <= 2) {
     texels.expanded = expandGrey(image);
-    texels.values = texels.expanded.data();
+    texels.levels = {texels.expanded.data()};
   }
   texels.format = srgbFormat(image.channels <= 2 ? image.channels + 2 : image.channels);
   return texels;
 }
 
 Texels texelsOf(const WideImage& image, const TextureOptions&) {
-  return {wordFormat(image.channels), image.width, image.height, 1, image.words.data(), {}};
+  return {wordFormat(image.channels), image.width, image.height, 1, {image.words.data()}, {}};
+}
+Texels texelsOf(const TextureImage& image, const TextureOptions&) {
+  Texels texels{floatFormat(image.precision(), image.channels()),
+                image.width(),
+                image.height(),
+                image.layers(),
+                {},
+                {}};
+  if (image.precision() == Precision::Half) texels.format.type = GL_HALF_FLOAT;
+  for (int level = 0; level < image.levels(); ++level) texels.levels.push_back(image.bytes(level).data());
+  return texels;
 }
 
 bool isEmpty(const FloatImage& image) {
@@ -106,14 +117,24 @@ bool isEmpty(const Image& image) {
 bool isEmpty(const WideImage& image) {
   return image.words.empty();
 }
+bool isEmpty(const TextureImage& image) {
+  return image.empty();
+}
 
 /// What the shape asks of the image; a caller who breaks it could only get a wrong picture.
-void expectFits(const TextureOptions& options, const FloatImage& image) {
+void expectLayersFit(const TextureOptions& options, const auto& image) {
   WEFT_EXPECT(!options.srgb, "float images are linear");
-  WEFT_EXPECT(image.channelCount() <= 4, "a texture has 1 to 4 channels");
   WEFT_EXPECT(!isFlat(options.shape) || image.layers() == 1, "a flat texture has one layer");
   WEFT_EXPECT(options.shape != TextureShape::Cube || (image.layers() == 6 && image.width() == image.height()),
               "a cube texture has six square layers");
+}
+void expectFits(const TextureOptions& options, const FloatImage& image) {
+  WEFT_EXPECT(image.channelCount() <= 4, "a texture has 1 to 4 channels");
+  expectLayersFit(options, image);
+}
+void expectFits(const TextureOptions& options, const TextureImage& image) {
+  WEFT_EXPECT(options.filter != TextureFilter::Mipmapped, "a TextureImage brings its own levels");
+  expectLayersFit(options, image);
 }
 /// An Image or WideImage of so many values.
 template <class AnyWidth>
@@ -133,7 +154,7 @@ void expectFits(const TextureOptions& options, const WideImage& image) {
 }
 
 int levelsOf(const TextureOptions& options, const Texels& texels) {
-  if (options.filter != TextureFilter::Mipmapped) return 1;
+  if (options.filter != TextureFilter::Mipmapped) return static_cast<int>(texels.levels.size());
   int size = std::max(texels.width, texels.height);
   if (options.shape == TextureShape::Volume) size = std::max(size, texels.layers);
   return static_cast<int>(std::bit_width(static_cast<unsigned>(size)));
@@ -170,14 +191,20 @@ GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options
   return GLTexture(name);
 }
 
+void upload(GLuint texture, const TextureOptions& options, const Texels& texels, int level) {
+  const int width = std::max(texels.width >> level, 1), height = std::max(texels.height >> level, 1);
+  const auto [storage, channels, type] = texels.format;
+  const void* values = texels.levels[static_cast<std::size_t>(level)];
+  if (isFlat(options.shape))
+    glTextureSubImage2D(texture, level, 0, 0, width, height, channels, type, values);
+  else
+    glTextureSubImage3D(texture, level, 0, 0, 0, width, height, texels.layers, channels, type, values);
+}
+
 void upload(GLuint texture, const TextureOptions& options, const Texels& texels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  if (isFlat(options.shape))
-    glTextureSubImage2D(texture, 0, 0, 0, texels.width, texels.height, texels.format.channels,
-                        texels.format.type, texels.values);
-  else
-    glTextureSubImage3D(texture, 0, 0, 0, 0, texels.width, texels.height, texels.layers,
-                        texels.format.channels, texels.format.type, texels.values);
+  for (int level = 0; level < static_cast<int>(texels.levels.size()); ++level)
+    upload(texture, options, texels, level);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);  // GL's default
   if (options.filter == TextureFilter::Mipmapped) glGenerateTextureMipmap(texture);
 }
@@ -194,6 +221,11 @@ TextureChunk::TextureChunk(std::shared_ptr<const Image> image, TextureOptions op
 }
 
 TextureChunk::TextureChunk(std::shared_ptr<const WideImage> image, TextureOptions options)
+    : options_(options) {
+  replaceImage(std::move(image));
+}
+
+TextureChunk::TextureChunk(std::shared_ptr<const TextureImage> image, TextureOptions options)
     : options_(options) {
   replaceImage(std::move(image));
 }

@@ -33,6 +33,7 @@ class Assembler {
 
  private:
   Result<std::string> load(const std::string& file, const std::string& includedFrom) const {
+    if (const auto given = source_.texts.find(file); given != source_.texts.end()) return given->second;
     if (!source_.overrideFolder.empty()) {
       std::ifstream stream(source_.overrideFolder / file, std::ios::binary);
       std::ostringstream text;

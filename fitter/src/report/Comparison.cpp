@@ -12,6 +12,7 @@
 #include "weft/core/Direction.h"
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/reflectance/FieldTextures.h"
 #include "weft/report/FieldReport.h"
 
 namespace weft {

@@ -15,7 +15,7 @@
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/evaluation/TexelSamples.h"
 #include "weft/io/ImageFile.h"
-#include "weft/io/ReflectanceFieldFile.h"
+#include "weft/reflectance/FieldTextures.h"
 #include "weft/report/FieldReport.h"
 
 namespace weft {

@@ -306,13 +306,4 @@ Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
   });
 }
 
-std::uint64_t gpuBytes(const ReflectanceField& field) {
-  constexpr std::uint64_t kTexelBytes = 4 * 2;
-  const ReflectanceModel& model = field.model();
-  const int texels =
-      model.colorChannels() * (sharedTexels(model) + field.layers().layers() * layerTexels(model));
-  return kTexelBytes * static_cast<std::uint64_t>(field.width()) *
-         static_cast<std::uint64_t>(field.height()) * static_cast<std::uint64_t>(texels);
-}
-
 }  // namespace weft

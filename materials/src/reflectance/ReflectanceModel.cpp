@@ -110,12 +110,4 @@ glm::vec3 ReflectanceModel::colorUnderEnvironment(std::span<const float> shared,
   return value * baseColor;
 }
 
-int sharedTexels(const ReflectanceModel& model) {
-  return (3 + static_cast<int>(model.sharedNumbers().size()) + 3) / 4;
-}
-
-int layerTexels(const ReflectanceModel& model) {
-  return (static_cast<int>(model.layerNumbers().size()) + 3) / 4;
-}
-
 }  // namespace weft

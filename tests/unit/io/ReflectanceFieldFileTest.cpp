@@ -225,13 +225,6 @@ TEST(ReflectanceFieldFile, LooksAsDocumented) {
       ASSERT_EQ(exponents[static_cast<std::size_t>(y * kWidth + x)], field.layers().at(x, y, channel, 2));
 }
 
-TEST(ReflectanceFieldFile, CountsTheBytesOfItsTextures) {
-  // rfnl with 2 lobes: 4 shared numbers, 8 a view; with 3 lobes and its own albedo: 3 shared, 13 a view.
-  EXPECT_EQ(gpuBytes(madeUpField({}, Precision::Half)), 8u * kWidth * kHeight * (1 + 2 * kViews));
-  EXPECT_EQ(gpuBytes(madeUpField({"rfnl", {{"lobes", 3}, {"rho_d", "per-view"}}}, Precision::Float)),
-            8u * kWidth * kHeight * (1 + 4 * kViews));
-}
-
 TEST(ReflectanceFieldFile, RefusesAFitReportThatIsNotJson) {
   const fs::path folder = test::testFolder();
   const ReflectanceField good = madeUpField({}, Precision::Half);

@@ -9,6 +9,7 @@
 #include "weft/chunks/Sampling.h"
 #include "weft/core/FloatImage.h"
 #include "weft/core/Image.h"
+#include "weft/core/TextureImage.h"
 
 namespace weft {
 
@@ -36,13 +37,16 @@ struct TextureOptions {
 ///
 /// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the image's
 /// precision: 16F for half, 32F for float, 8 for bytes, 16 for words. sRGB has no format of 1 or 2 channels
-/// in GL, so grey becomes three equal channels. An empty image or none unbinds what was there before.
+/// in GL, so grey becomes three equal channels. A TextureImage brings its own levels;
+/// TextureFilter::Mipmapped makes those of other images. An empty image or none unbinds what was there
+/// before.
 class TextureChunk : public Chunk {
  public:
   /// Flat, Rectangle: an image of one layer.
   explicit TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const Image> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const WideImage> image, TextureOptions options = {});
+  explicit TextureChunk(std::shared_ptr<const TextureImage> image, TextureOptions options = {});
 
   Slot kind() const override { return TextureSlot; }
   void activate(GLContext& context, unsigned slot) const override;
@@ -57,7 +61,7 @@ class TextureChunk : public Chunk {
   bool isEqual(const Chunk& other) const override;
 
   using AnyImage = std::variant<std::shared_ptr<const FloatImage>, std::shared_ptr<const Image>,
-                                std::shared_ptr<const WideImage>>;
+                                std::shared_ptr<const WideImage>, std::shared_ptr<const TextureImage>>;
 
   void replaceImage(AnyImage image);
   /// The texture in this context, up to date; 0 where there is none.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
 #include "weft/core/Result.h"
@@ -19,9 +18,5 @@ Result<void> writeReflectanceField(const ReflectanceField& field, const std::fil
 /// taken.
 Result<ReflectanceField> readReflectanceField(const std::filesystem::path& path,
                                               const ModelRegistry& models = ModelRegistry::builtin());
-
-/// Bytes of the textures that a renderer makes of a field: RGBA half-precision texels, as many as hold the
-/// shared channels and the channels of every view.
-std::uint64_t gpuBytes(const ReflectanceField& field);
 
 }  // namespace weft

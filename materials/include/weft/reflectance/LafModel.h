@@ -34,8 +34,6 @@ class LafModel : public ReflectanceModel {
   std::string shaderFile() const override { return "laf.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
-  int lobes() const { return lobes_; }
-
  private:
   int lobes_;
   bool hasViewFactor_;

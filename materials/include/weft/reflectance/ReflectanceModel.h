@@ -102,9 +102,5 @@ class ReflectanceModel {
   int colorChannels_;
 };
 
-/// How many RGBA texels a colour channel of a model needs on the GPU (shaders/field_numbers.glsl): shared
-/// ones, the first of which begins with the base colour, and those of a layer.
-int sharedTexels(const ReflectanceModel& model);
-int layerTexels(const ReflectanceModel& model);
 
 }  // namespace weft

@@ -35,10 +35,6 @@ class RfnlModel : public ReflectanceModel {
   std::string shaderFile() const override { return "rfnl.glsl"; }
   std::map<std::string, std::string> shaderDefines() const override;
 
-  int lobes() const { return lobes_; }
-  /// Whether each layer has a rho_d of its own.
-  bool ownDiffuseAlbedo() const { return ownDiffuseAlbedo_; }
-
  private:
   float diffuseAlbedoOf(std::span<const float> shared, std::span<const float> layer) const {
     return ownDiffuseAlbedo_ ? layer.back() : shared[0];

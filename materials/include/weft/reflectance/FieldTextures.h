@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <map>
+#include <string>
+
+#include "weft/core/TextureImage.h"
+#include "weft/reflectance/LayerLookup.h"
+#include "weft/reflectance/ReflectanceField.h"
+
+namespace weft {
+
+/// A field's parameters as textures for a GPU. With FieldProgram the one place that knows how they lie in
+/// texels; shaders/field_numbers.glsl reads them.
+///
+/// They have the field's levels. Both are arrays of RGBA texels, as precise as the field. A colour channel
+/// has sharedTexels() of them for all layers, one after another: the base colour, and from its alpha on the
+/// shared numbers. Of each layer it has layerTexels(), the numbers padded to whole texels. Colour channels
+/// follow one another, then layers.
+struct FieldTextures {
+  TextureImage shared;
+  TextureImage layers;          ///< empty for a model without layers
+  TextureImage preparedLayers;  ///< ReflectanceModel::prepareForEnvironments(); empty where not asked for
+  /// By name, their channels as shared numbers are packed, from the first component on.
+  std::map<std::string, TextureImage> tables{};
+
+  static FieldTextures create(const ReflectanceField& field, bool preparedForEnvironments = false);
+
+  static int sharedTexels(const ReflectanceModel& model);
+  static int layerTexels(const ReflectanceModel& model);
+  /// How many array layers `layers` has.
+  static int arrayLayers(const FieldFormula& formula);
+  /// Whether preparedForEnvironments has an effect.
+  static bool canBePrepared(const FieldFormula& formula);
+};
+
+/// Bytes of the textures that create() makes of a field, not prepared for environments.
+std::uint64_t gpuBytes(const ReflectanceField& field);
+
+/// The uniform block `ReflectanceField` of shaders/btf.frag, std140.
+struct FieldBlock {
+  glm::vec2 textureScale{1.0f};  ///< repetitions per unit of texture coordinates
+  float lowestLightZ = 0.0f;     ///< FieldFormula's
+  float lowestViewZ = 0.0f;      ///< likewise
+  float quadratureExponent = 1.0f;
+  float unused[3] = {};
+};
+
+/// What a program must know of a field beside FieldTextures to show it: small, and the same for every
+/// program.
+struct FieldProgram {
+  std::map<std::string, std::string> defines;         ///< `#define NAME VALUE`
+  std::map<std::string, std::string> includeAliases;  ///< as ShaderSource's
+  std::map<std::string, std::string> texts;           ///< likewise
+  FieldBlock block;
+  LayerLookup lookup;     ///< empty for a model without layers
+  FloatImage quadrature;  ///< a texel a node: light, weight; empty where the model's formula integrates
+
+  /// The texture unit of a field's first table; each define TABLE_NAME is the unit of that table.
+  static constexpr int kFirstTableUnit = 8;
+  static constexpr int kMostTables = 8;
+
+  static FieldProgram create(const ReflectanceField& field);
+};
+
+}  // namespace weft

@@ -1,0 +1,173 @@
+#include "weft/reflectance/FieldTextures.h"
+
+#include <algorithm>
+#include <array>
+
+namespace weft {
+namespace {
+
+// Calls of(x, y, layer) for every texel.
+template <class Function>
+void forEachTexel(const FloatImage& image, Function of) {
+  for (int layer = 0; layer < image.layers(); ++layer)
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) of(x, y, layer);
+}
+
+int levelsOf(const ReflectanceField& field) {
+  return static_cast<int>(field.levels().size());
+}
+
+TextureImage packShared(const ReflectanceField& field) {
+  const ReflectanceModel& model = field.model();
+  const int texels = FieldTextures::sharedTexels(model), channels = model.colorChannels();
+  const std::size_t numbers = model.sharedNumbers().size();
+  TextureImage packed(field.width(), field.height(), channels * texels, 4, field.shared().precision(),
+                      levelsOf(field));
+  for (int level = 0; level < levelsOf(field); ++level) {
+    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
+    forEachTexel(from, [&](int x, int y, int) {
+      const std::span<const float> values = from.texel(x, y);
+      for (int c = 0; c < channels; ++c) {
+        packed.set(x, y, c * texels, 0, values.first(3), level);
+        packed.set(x, y, c * texels, 3, values.subspan(3 + static_cast<std::size_t>(c) * numbers, numbers),
+                   level);
+      }
+    });
+  }
+  return packed;
+}
+
+// `change(numbers)` of each colour channel of each layer.
+template <class Change>
+TextureImage packLayers(const ReflectanceField& field, Change change) {
+  const int layers = field.formula().layerCount();
+  if (layers == 0) return {};
+  const ReflectanceModel& model = field.model();
+  const int texels = FieldTextures::layerTexels(model), channels = model.colorChannels();
+  const std::size_t numbers = model.layerNumbers().size();
+  TextureImage packed(field.width(), field.height(), layers * channels * texels, 4,
+                      field.layers().precision(), levelsOf(field));
+  for (int level = 0; level < levelsOf(field); ++level) {
+    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].layers;
+    forEachTexel(from, [&](int x, int y, int layer) {
+      const std::span<const float> values = from.texel(x, y, layer);
+      for (int c = 0; c < channels; ++c)
+        packed.set(x, y, (layer * channels + c) * texels, 0,
+                   change(values.subspan(static_cast<std::size_t>(c) * numbers, numbers)), level);
+    });
+  }
+  return packed;
+}
+
+TextureImage packPreparedLayers(const ReflectanceField& field) {
+  std::vector<float> prepared(field.model().layerNumbers().size());
+  return packLayers(field, [&](std::span<const float> numbers) {
+    std::ranges::copy(numbers, prepared.begin());
+    field.model().prepareForEnvironments(prepared);
+    return std::span<const float>(prepared);
+  });
+}
+
+int tableTexels(const FloatImage& table) {
+  return (table.channelCount() + 3) / 4;
+}
+
+TextureImage packTable(const FloatImage& table) {
+  TextureImage packed(table.width(), table.height(), tableTexels(table), 4, table.precision());
+  forEachTexel(table, [&](int x, int y, int) { packed.set(x, y, 0, 0, table.texel(x, y)); });
+  return packed;
+}
+
+const char* decodeFunction(Encoding encoding) {
+  switch (encoding) {
+    case Encoding::Linear:
+      return "";
+    case Encoding::Gamma22:
+      return "decodeGamma22";
+    case Encoding::Srgb:
+      return "decodeSrgb";
+  }
+  return "";
+}
+
+FloatImage nodesOf(const LightQuadrature& quadrature) {
+  if (quadrature.nodes.empty()) return {};
+  FloatImage nodes(static_cast<int>(quadrature.nodes.size()), 1, {"x", "y", "z", "w"});
+  for (int i = 0; i < nodes.width(); ++i) {
+    const auto& [light, weight] = quadrature.nodes[static_cast<std::size_t>(i)];
+    std::ranges::copy(std::array{light.x, light.y, light.z, weight}, nodes.texel(i, 0).begin());
+  }
+  return nodes;
+}
+
+std::uint64_t textureBytes(const FloatImage& image, int arrayLayers) {
+  const std::uint64_t texelBytes = image.precision() == Precision::Half ? 8 : 16;
+  return texelBytes * static_cast<std::uint64_t>(image.width()) * static_cast<std::uint64_t>(image.height()) *
+         static_cast<std::uint64_t>(arrayLayers);
+}
+
+}  // namespace
+
+FieldTextures FieldTextures::create(const ReflectanceField& field, bool preparedForEnvironments) {
+  FieldTextures textures{
+      packShared(field), packLayers(field, [](std::span<const float> numbers) { return numbers; }), {}};
+  if (preparedForEnvironments && canBePrepared(field.formula()))
+    textures.preparedLayers = packPreparedLayers(field);
+  return textures;
+}
+
+int FieldTextures::sharedTexels(const ReflectanceModel& model) {
+  return (3 + static_cast<int>(model.sharedNumbers().size()) + 3) / 4;
+}
+
+int FieldTextures::layerTexels(const ReflectanceModel& model) {
+  return (static_cast<int>(model.layerNumbers().size()) + 3) / 4;
+}
+
+int FieldTextures::arrayLayers(const FieldFormula& formula) {
+  return formula.layerCount() * formula.model().colorChannels() * layerTexels(formula.model());
+}
+
+bool FieldTextures::canBePrepared(const FieldFormula& formula) {
+  std::vector<float> numbers(formula.model().layerNumbers().size());
+  return formula.integratesEnvironments() && !numbers.empty() &&
+         formula.model().prepareForEnvironments(numbers);
+}
+
+std::uint64_t gpuBytes(const ReflectanceField& field) {
+  const ReflectanceModel& model = field.model();
+  std::uint64_t bytes = 0;
+  for (const FieldLevel& level : field.levels())
+    bytes += textureBytes(level.shared, model.colorChannels() * FieldTextures::sharedTexels(model)) +
+             textureBytes(level.layers, FieldTextures::arrayLayers(field.formula()));
+  for (const auto& [name, table] : field.tables()) bytes += textureBytes(table, tableTexels(table));
+  return bytes;
+}
+
+FieldProgram FieldProgram::create(const ReflectanceField& field) {
+  const ReflectanceModel& model = field.model();
+  const FieldFormula& formula = field.formula();
+  FieldProgram program{.defines = model.shaderDefines(),
+                       .includeAliases = {{"model.glsl", model.shaderFile()}},
+                       .texts = {},
+                       .block = {.lowestLightZ = formula.lowestLightZ(),
+                                 .lowestViewZ = formula.lowestViewZ(),
+                                 .quadratureExponent = formula.quadrature().exponent},
+                       .lookup = {},
+                       .quadrature = nodesOf(formula.quadrature())};
+  program.defines["COLOR_CHANNELS"] = std::to_string(model.colorChannels());
+  program.defines["SHARED_TEXELS"] = std::to_string(FieldTextures::sharedTexels(model));
+  program.defines["LAYER_TEXELS"] = std::to_string(FieldTextures::layerTexels(model));
+  program.defines["DECODE"] = decodeFunction(field.description().encoding);
+  if (model.layerDirections() == LayerDirections::Lights) program.defines["LAYERS_ARE_LIGHTS"] = "";
+  if (field.description().hasCosine) program.defines["MODEL_HAS_COSINE"] = "";
+  if (!formula.integratesEnvironments()) program.defines["ENVIRONMENT_BY_QUADRATURE"] = "";
+  if (const std::string text = model.shaderText(); !text.empty()) program.texts[model.shaderFile()] = text;
+  int unit = kFirstTableUnit;
+  for (const auto& [name, table] : field.tables()) program.defines["TABLE_" + name] = std::to_string(unit++);
+  if (formula.layerCount() > 0) program.lookup = LayerLookup::create(formula.triangulation());
+  return program;
+}
+
+}  // namespace weft
