@@ -58,8 +58,10 @@ auto partsOf(const ReflectanceModel& model, std::span<Level> levels, Tables& tab
   return parts;
 }
 
-Imf::Header partHeader(const FloatImage& image, const std::string& name) {
+// OpenEXR wants one display window for all parts: level 0's.
+Imf::Header partHeader(const FloatImage& image, const std::string& name, const FloatImage& first) {
   Imf::Header header = exrPartHeader(image);
+  header.displayWindow() = exrPartHeader(first).displayWindow();
   header.setName(name);
   header.setType(Imf::SCANLINEIMAGE);
   return header;
@@ -87,7 +89,7 @@ void copyPart(const std::string& packed, Imf::MultiPartOutputFile& file, int par
 void writeParts(const ReflectanceField& field, const std::string& manifest, const std::string& path) {
   const auto content = partsOf(field.model(), std::span(field.levels()), field.tables());
   std::vector<Imf::Header> headers;
-  for (const auto& part : content) headers.push_back(partHeader(*part.image, part.name));
+  for (const auto& part : content) headers.push_back(partHeader(*part.image, part.name, field.shared()));
   headers[0].insert(kManifestAttribute, Imf::StringAttribute(manifest));
   const int parts = static_cast<int>(headers.size());
   Imf::MultiPartOutputFile file(path.c_str(), headers.data(), parts, false, 0);

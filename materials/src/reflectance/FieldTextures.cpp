@@ -112,6 +112,7 @@ std::uint64_t textureBytes(const FloatImage& image, int arrayLayers) {
 FieldTextures FieldTextures::create(const ReflectanceField& field, bool preparedForEnvironments) {
   FieldTextures textures{
       packShared(field), packLayers(field, [](std::span<const float> numbers) { return numbers; }), {}};
+  for (const auto& [name, table] : field.tables()) textures.tables[name] = packTable(table);
   if (preparedForEnvironments && canBePrepared(field.formula()))
     textures.preparedLayers = packPreparedLayers(field);
   return textures;

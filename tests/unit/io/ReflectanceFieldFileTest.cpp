@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "RampModel.h"
+#include "SomeModels.h"
 #include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -45,14 +46,18 @@ ReflectanceField madeUpField(const ModelDescription& description, Precision prec
   ReflectanceFieldDescription about;
   about.views = {directionFromDegrees(0, 0), directionFromDegrees(33.3, 10),
                  directionFromDegrees(60.1, 133.7), directionFromDegrees(75, 271)};
-  about.lights = {directionFromDegrees(0, 0), directionFromDegrees(17.7, 12.3)};
+  about.lights = {directionFromDegrees(0, 0), directionFromDegrees(17.7, 12.3),
+                  directionFromDegrees(40, 200)};
   about.hasCosine = true;
   about.source = "wool \"knitted\" \xc3\xa4";
   about.fitReport = R"({"epsilon":{"linear":{"luminance":{"avg":0.0301}}},"b":[1,2],"a":null})";
   FloatImage shared = madeUpParameters(model->sharedChannels(), 1);
-  FloatImage views = madeUpParameters(model->layerChannels(), kViews);
-  if (precision == Precision::Half) shared.roundToHalf(), views.roundToHalf();
-  return valueOf(ReflectanceField::create(model, about, shared, views));
+  FloatImage layers;
+  if (const int count = valueOf(FieldFormula::create(model, about)).layerCount(); count > 0)
+    layers = madeUpParameters(model->layerChannels(), count);
+  if (precision == Precision::Half) shared.roundToHalf();
+  if (precision == Precision::Half && !layers.empty()) layers.roundToHalf();
+  return valueOf(ReflectanceField::create(model, about, shared, layers));
 }
 
 void expectEqual(const FloatImage& actual, const FloatImage& expected) {
@@ -87,9 +92,7 @@ void copyWithManifest(const fs::path& from, const fs::path& to, const std::strin
 TEST(ReflectanceFieldFile, KeepsEverything) {
   const fs::path folder = test::testFolder();
   const fs::path file = folder / "a.rf.exr";
-  for (const ModelDescription& model :
-       {ModelDescription{"rfnl", {{"lobes", 2}}},
-        ModelDescription{"rfnl", {{"lobes", 3}, {"rho_d", "per-view"}}}, ModelDescription{"rfp"}})
+  for (const ModelDescription& model : test::someModels())
     for (Precision precision : {Precision::Half, Precision::Float}) {
       const ReflectanceField written = madeUpField(model, precision);
       requireDone(writeReflectanceField(written, file));
@@ -106,16 +109,17 @@ TEST(ReflectanceFieldFile, KeepsEverything) {
   EXPECT_THAT(test::namesIn(folder), testing::ElementsAre("a.rf.exr"));
 }
 
-// Three levels, the last of one texel, and a table whose channels are not in a file's order.
+// Three levels, the last of one texel, and a table.
 ReflectanceField rampField() {
   const ModelRegistry models = test::RampModel::registry();
   const auto model = valueOf(models.create({"ramp", {{"power", 2}}}));
   ReflectanceFieldDescription about;
-  about.views = about.lights = {directionFromDegrees(0, 0), directionFromDegrees(33.3, 10)};
+  about.views = about.lights = {directionFromDegrees(0, 0), directionFromDegrees(33.3, 10),
+                                directionFromDegrees(40, 200)};
   std::vector<FieldLevel> levels;
   for (const auto& [width, height] : {std::pair(5, 2), {2, 1}, {1, 1}}) {
     levels.push_back({FloatImage(width, height, model->sharedChannels()),
-                      FloatImage(width, height, model->layerChannels(), 2)});
+                      FloatImage(width, height, model->layerChannels(), 3)});
     for (FloatImage* image : {&levels.back().shared, &levels.back().layers})
       for (std::size_t i = 0; i < image->values().size(); ++i)
         image->values()[i] = std::sin(0.7f * static_cast<float>(i + levels.size()));
@@ -143,9 +147,10 @@ TEST(ReflectanceFieldFile, KeepsLevelsTablesAndOptions) {
   const Imf::MultiPartInputFile file(path.c_str());
   std::vector<std::string> names;
   for (int part = 0; part < file.parts(); ++part) names.push_back(file.header(part).name());
-  EXPECT_THAT(names, testing::ElementsAre("shared", "view000", "view001", "level1.shared", "level1.view000",
-                                          "level1.view001", "level2.shared", "level2.view000",
-                                          "level2.view001", "table.ramp"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("shared", "view000", "view001", "view002", "level1.shared",
+                                   "level1.view000", "level1.view001", "level1.view002", "level2.shared",
+                                   "level2.view000", "level2.view001", "level2.view002", "table.ramp"));
 }
 
 TEST(ReflectanceFieldFile, ARegistryWithoutTheModelSaysWhichItHas) {
@@ -167,9 +172,9 @@ TEST(ReflectanceFieldFile, RefusesOptionsLevelsAndTablesThatDoNotFit) {
       {R"("power":2)", R"("lobes":2)", "the model 'ramp' has no option 'lobes' (its options are power)"},
       {R"("options":{"power":2})", R"("options":2)", "the options of the model are not an object"},
       {R"("width":5)", R"("width":6)", "level 0 has 5 x 2 texels, not 6 x 2 as the manifest says"},
-      {R"(,{"width":1,"height":1})", "", "the manifest describes 7 parts, the file has 10"},
+      {R"(,{"width":1,"height":1})", "", "the manifest describes 9 parts, the file has 13"},
       {R"("levels":[{)", R"("levels":[],"others":[{)", "the levels are not a list of sizes"},
-      {R"("tables":["ramp"])", R"("tables":[])", "the manifest describes 9 parts, the file has 10"},
+      {R"("tables":["ramp"])", R"("tables":[])", "the manifest describes 12 parts, the file has 13"},
       {R"("tables":["ramp"])", R"("tables":["stairs"])", "the model 'ramp' has no table 'stairs'"},
       {R"("tables":["ramp"])", R"("tables":["ramp","ramp"])", "not in alphabetical order"},
       {R"("version":3)", R"("version":4)", "the file has format version 4, this Weft reads versions 2 to 3"},

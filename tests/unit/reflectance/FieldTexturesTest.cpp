@@ -75,7 +75,8 @@ TEST(FieldTextures, PreparedLayersAreWhatTheModelMakesOfThem) {
 
 TEST(FieldTextures, HoldLevelsAndTables) {
   const auto model = test::valueOf(test::RampModel::registry().create({"ramp"}));
-  ReflectanceFieldDescription about{.views = {{0, 0, 1}}, .lights = {{0, 0, 1}}};
+  ReflectanceFieldDescription about;
+  about.views = about.lights = {{0, 0, 1}};
   std::vector<FieldLevel> levels;
   for (const auto& [width, height] : {std::pair(3, 2), {1, 1}})
     levels.push_back({test::unevenNumbers(width, height, model->sharedChannels(), 1, Precision::Half),

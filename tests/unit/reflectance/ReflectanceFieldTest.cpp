@@ -127,10 +127,12 @@ TEST(ReflectanceField, HasLevelsThatHalve) {
 struct RampParts {
   std::shared_ptr<const ReflectanceModel> model =
       valueOf(test::RampModel::registry().create({"ramp", {{"power", 0}}}));
-  ReflectanceFieldDescription description{.views = {{0, 0, 1}}, .lights = {{0, 0, 1}}};
+  ReflectanceFieldDescription description;
   FloatImage ramp{3, 1, {"value"}};
 
-  RampParts() { std::ranges::copy(std::array{0.1f, 0.5f, 0.7f}, ramp.values().begin()); }
+  RampParts() {
+    description.views = description.lights = {{0, 0, 1}};
+    std::ranges::copy(std::array{0.1f, 0.5f, 0.7f}, ramp.values().begin()); }
 
   Result<ReflectanceField> make(const FieldTables& tables) const {
     FieldLevel level{FloatImage(1, 1, {"R", "G", "B"}), FloatImage(1, 1, {"place"}, 1)};
