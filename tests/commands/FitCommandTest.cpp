@@ -158,6 +158,12 @@ TEST(FitCommand, BadUsageEndsWithOne) {
   expectRefused(runProgram("weft-fit", {zip, "-o", folder / "cloth.exr"}), 1, ".rf.exr");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "magic"}), 1, "magic");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--lobes", "0"}), 1, "lobes");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "rfp", "--lobes", "2"}), 1,
+                "the model 'rfp' has no option 'lobes' (its options are color)");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "laf", "--rho-d", "per-view"}), 1,
+                "the model 'laf' has no option 'rho_d' (its options are lobes, color)");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--lobes", "2.5"}), 1,
+                "'lobes' of the model 'rfnl' cannot be 2.5 (1 to 4)");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--crop", "1", "2"}), 1, "crop");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--hold-out", "1"}), 1, "hold-out");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--space", "stored", "--cosine", "out"}), 1,

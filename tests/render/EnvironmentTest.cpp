@@ -7,6 +7,7 @@
 #include "EnvironmentReference.h"
 #include "GlTest.h"
 #include "MemoryBtf.h"
+#include "SomeModels.h"
 #include "TestSupport.h"
 #include "weft/baking/ReferenceRenderer.h"
 #include "weft/core/ImageComparison.h"
@@ -125,22 +126,33 @@ struct FitKind {
   bool stored = false;
 };
 
-const std::vector<FitKind> kModels{{{.name = "rfnl", .options = {{"lobes", 2}}}},
-                                   {{.name = "rfp"}},
-                                   {{.name = "laf", .options = {{"lobes", 3}}}},
-                                   {{.name = "slaf", .options = {{"lobes", 2}}}},
-                                   {{.name = "bump"}}};
-const std::vector<FitKind> kVariants{{{.name = "rfnl", .options = {{"lobes", 1}, {"rho_d", "per-view"}}}},
-                                     {{.name = "laf", .options = {{"lobes", 1}, {"color", "rgb"}}}},
-                                     {{.name = "rfp", .options = {{"color", "rgb"}}}},
-                                     {{.name = "lfnl", .options = {{"lobes", 1}}}},
-                                     {{.name = "lfp"}},
-                                     {{.name = "rfp"}, true},
-                                     {{.name = "rfnl", .options = {{"lobes", 1}}}, false, true}};
+// The models of the list: those with the standard of their options and a formula for environments, or the
+// rest. A PTM is of one view, and its formula is that of `rfp`.
+std::vector<FitKind> kindsOf(bool usual) {
+  const ModelRegistry registry = ModelRegistry::builtin();
+  std::vector<FitKind> kinds;
+  for (const ModelDescription& description : someModels()) {
+    const auto model = valueOf(registry.create(description));
+    const auto standard = valueOf(registry.create({.name = description.name}));
+    const bool isUsual = model->description() == standard->description() && model->integratesEnvironments();
+    if (description.name != "ptm" && isUsual == usual) kinds.push_back({description});
+  }
+  return kinds;
+}
+
+std::vector<FitKind> usualKinds() {
+  return kindsOf(true);
+}
+
+std::vector<FitKind> otherKinds() {
+  std::vector<FitKind> kinds = kindsOf(false);
+  kinds.push_back({{.name = "rfp"}, true});
+  kinds.push_back({{.name = "rfnl", .options = {{"lobes", 1}}}, false, true});
+  return kinds;
+}
 
 std::string nameOf(const FitKind& kind) {
-  return kind.model.name + " " + (kind.model.options.contains("color") ? "rgb " : "") +
-         (kind.cosineInModel ? "with cosine " : "") + (kind.stored ? "stored" : "");
+  return test::nameOf(kind.model) + (kind.cosineInModel ? " with cosine" : "") + (kind.stored ? " stored" : "");
 }
 
 // The GPU's pictures against sums over all texels, by the same formula.
@@ -180,14 +192,14 @@ TEST_P(GpuAgainstSums, ShowTheSameFormula) {
   if (!Environment::builtin(GetParam())) {
     WEFT_DATA_FILE(file, std::string("hdr/") + GetParam() + ".hdr");
   }
-  compare(kModels, smallEnvironment(GetParam()));
+  compare(usualKinds(), smallEnvironment(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Environments, GpuAgainstSums, testing::Values("studio", "sky", "venice", "city"));
 
 TEST_F(GpuAgainstSums, ShowTheSameFormulaOfOtherFitsToo) {
   size = 12;  // some ask for averages around each of 81 lights
-  compare(kVariants, smallEnvironment("studio"));
+  compare(otherKinds(), smallEnvironment("studio"));
 }
 
 // What microfacets mirror, around a metal sphere.
@@ -229,8 +241,8 @@ TEST_F(EnvironmentTest, WhiteInWhiteIsInvisible) {
   const PrefilteredEnvironment prefiltered = PrefilteredEnvironment::create(white);
   for (const LobeLookup lookup : {LobeLookup::Fitted, LobeLookup::Paper}) {
     const auto light = makeEnvironmentLight(white, prefiltered, lookup);
-    std::vector<FitKind> kinds = kModels;
-    kinds.insert(kinds.end(), kVariants.begin(), kVariants.end());
+    std::vector<FitKind> kinds = usualKinds();
+    std::ranges::copy(otherKinds(), std::back_inserter(kinds));
     for (const FitKind& kind : kinds) {
       SCOPED_TRACE(nameOf(kind));
       const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
@@ -290,13 +302,11 @@ TEST_F(EnvironmentTest, DiffuseAndSpecularAddUpAndPointLightsToo) {
     EXPECT_TRUE(renderer.render(context(), scene, camera(), target, options));
     return target.read(context());
   };
-  const std::vector<std::shared_ptr<const Material>> materials{
-      valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .options = {{"lobes", 2}}}))),
-      valueOf(BTFMaterial::create(unevenField({.name = "rfp"}))),
-      valueOf(BTFMaterial::create(unevenField({.name = "laf", .options = {{"lobes", 2}}}))),
-      valueOf(BTFMaterial::create(unevenField({.name = "bump"}))),
+  std::vector<std::shared_ptr<const Material>> materials{
       std::make_shared<PBRMaterial>(PBROptions{.metallic = 0.3f, .roughness = 0.5f}),
       std::make_shared<LambertMaterial>()};
+  for (const FitKind& kind : usualKinds())
+    materials.push_back(valueOf(BTFMaterial::create(unevenField(kind.model))));
   for (const auto& material : materials) {
     const auto part = [&](ReflectedPart each) { return draw(material, true, true, each); };
     const FloatImage all = part(ReflectedPart::All);
