@@ -4,7 +4,7 @@
 #include "environment.glsl"
 #include "shown.glsl"
 
-layout(binding = 0) uniform sampler2D panorama;  // Environment.h says which direction lies where
+layout(binding = panoramaUnit) uniform sampler2D panorama;  // Environment.h says which direction lies where
 
 in vec3 direction;
 

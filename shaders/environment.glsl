@@ -3,14 +3,11 @@
 // environmentIntensity, by which the sum is multiplied.
 #ifdef ENVIRONMENT
 
-#ifdef ENVIRONMENT_PARABOLIC
-layout(binding = 16) uniform sampler2DRect environmentLobes;  // a column of maps: half around +z, half around -z; exponents 2^(i / 2)
-#else
-layout(binding = 16) uniform sampler3D environmentLobes;  // octahedral; along z log2 of the exponent, ENVIRONMENT_LOBES an octave
-#endif
-layout(binding = 17) uniform sampler3D environmentMoments;  // octahedral; a layer a moment
-layout(binding = 18) uniform sampler3D environmentGlossy;   // octahedral; along z the roughness
-layout(binding = 19) uniform sampler2D microfacetTable;
+#include "bindings.glsl"
+
+layout(binding = environmentMomentsUnit) uniform sampler3D environmentMoments;  // octahedral; a layer a moment
+layout(binding = environmentGlossyUnit) uniform sampler3D environmentGlossy;   // octahedral; along z the roughness
+layout(binding = microfacetTableUnit) uniform sampler2D microfacetTable;
 
 // The surface's axes, tangent frame, in the environment: n lies along the third.
 struct EnvironmentFrame {
@@ -41,31 +38,11 @@ vec3 valueOfTable(sampler2D table, vec2 place) {
   return textureLod(table, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
-#ifdef ENVIRONMENT_PARABOLIC
-// Paper M 5.2: the exponent is rounded to 2^(i / 2), i = 0..10, of which the power comes back in `exponent`.
-vec3 averageOfLobe(vec3 d, inout float exponent) {
-  float i = clamp(round(2.0 * log2(exponent)), 0.0, 10.0);
-  exponent = exp2(0.5 * i);
-  d = normalize(d);
-  float side = float(textureSize(environmentLobes).x);
-  vec2 p = 0.5 + 0.5 * d.xy / (1.0 + abs(d.z)) * (1.0 - 2.0 / side);
-  float map = 2.0 * i + (d.z < 0.0 ? 1.0 : 0.0);
-  return texture(environmentLobes, side * (p + vec2(0.0, map))).rgb;
-}
-#else
-vec3 averageOfLobe(vec3 d, float logExponent) {
-  return layerOf(environmentLobes, d, float(ENVIRONMENT_LOBES) * max(logExponent, 0.0));
-}
-#endif
+#include "lobes.glsl"
 
 // What a white matt surface of this normal shows; directions in the environment.
 vec3 mattAround(vec3 normal) {
-#ifdef ENVIRONMENT_PARABOLIC
-  float exponent = 1.0;
-  return averageOfLobe(normal, exponent);
-#else
   return averageOfLobe(normal, 0.0);
-#endif
 }
 
 // What microfacets of a roughness mirror around a direction of the environment.
@@ -76,29 +53,6 @@ vec3 glossyAround(vec3 d, float roughness) {
 // How much microfacets reflect in all: x times F0, and y.
 vec2 microfacetShares(float nv, float roughness) {
   return valueOfTable(microfacetTable, vec2(nv, roughness)).xy;
-}
-
-// The integral of light times (t.l)^exponent n.l, divided by pi; t in the tangent frame.
-vec3 lightOfLobe(EnvironmentFrame frame, vec3 t, float exponent) {
-#ifdef ENVIRONMENT_PARABOLIC
-  vec3 average = averageOfLobe(frame.axes * t, exponent);
-  return 2.0 / (exponent + 1.0) * max(t.z, 0.0) * average;
-#else
-  // CosineLobe.cpp: lobeAboveHorizon().
-  float narrow = 1.0 / (exponent + 2.0);
-  float mean = t.z * (1.0 - narrow);
-  float spread = 0.6366 * max(1.0 - t.z * t.z, 0.0) * narrow * (1.0 - 0.42 * narrow);
-  float squared = mean * mean + spread;
-  float inverse = inversesqrt(squared);
-  float root = squared * inverse;
-  float cut = spread * inverse * inverse;
-  float facing = max(0.5 * (mean + root) - 0.25 * root * cut * (1.0 - cut) * (1.0 - 0.5 * cut), 0.0);
-  float shift = narrow * inverse * (1.0 + 0.85 * narrow * cut * cut) * (mean < 0.0 ? 1.0 + 1.85 * (1.0 - cut) : 1.0);
-  float below = 0.5 - 0.5 * mean * inverse;
-  vec3 direction = frame.axes * (t + shift * (vec3(0.0, 0.0, 1.0) - t.z * t));
-  return 2.0 / (exponent + 1.0) * facing *
-         averageOfLobe(direction, log2(exponent + 1.0) + below * (1.05 + 1.37 * narrow));
-#endif
 }
 
 // The moments around the normal, in the tangent frame.
@@ -117,4 +71,8 @@ void fetchMoments(inout EnvironmentFrame frame) {
   frame.moments[5] = m[0];
 }
 
+#else
+struct EnvironmentFrame {
+  int none;
+};
 #endif

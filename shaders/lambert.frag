@@ -4,11 +4,11 @@
 #include "environment.glsl"
 #include "shown.glsl"
 
-layout(std140, binding = 2) uniform Lambert {
+layout(std140, binding = materialBinding) uniform Lambert {
   vec4 baseColor;  // linear
 };
 #ifdef BASE_COLOR_TEXTURE
-layout(binding = 0) uniform sampler2D baseColorTexture;
+layout(binding = baseColorUnit) uniform sampler2D baseColorTexture;
 #endif
 
 in vec3 position;

@@ -1,8 +1,9 @@
 // Which layers of a field (measured views, or lights) a direction lies between, and their weights: HemisphereTriangulation.h and
 // LayerLookup.h say how.
+#include "bindings.glsl"
 
-layout(binding = 2) uniform samplerCube triangleOfDirection;
-layout(binding = 3) uniform sampler2DRect triangles;  // a row a triangle, a texel a corner
+layout(binding = triangleOfDirectionUnit) uniform samplerCube triangleOfDirection;
+layout(binding = trianglesUnit) uniform sampler2DRect triangles;  // a row a triangle, a texel a corner
 
 struct LayerWeights {
   ivec3 index;

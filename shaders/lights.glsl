@@ -1,5 +1,6 @@
 // The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout). Points and directions have
 // the world's axes; points are relative to the eye, since near it floats are finest. The place in the world: point + origin.xyz.
+#include "bindings.glsl"
 
 // How many lights there are of both kinds is known when a program is compiled, which makes short loops over them fast.
 #ifndef DIRECTIONAL_LIGHTS
@@ -16,7 +17,7 @@ struct Light {
   vec4 cone;       // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot light gives
 };
 
-layout(std140, binding = 0) uniform Frame {
+layout(std140, binding = frameBinding) uniform Frame {
   mat4 viewProjection;
   vec4 eye;     // (0, 0, 0, 1); of an orthographic view the unit direction towards the viewer, w = 0
   vec4 origin;  // the eye's place in the world

@@ -9,22 +9,19 @@
 
 const float pi = 3.14159265358979;
 
-// Texture units, and where each texture lies.
-const int baseColorUnit = 0, metallicRoughnessUnit = 1, normalUnit = 2, emissionUnit = 3, occlusionUnit = 4;
-const int specularUnit = 5, specularColorUnit = 6, unitCount = 7;
-
+// Where the texture of a unit lies.
 struct Placement {
   vec4 matrix;  // 2 x 2, columns
   vec4 offset;  // xy; z: set of texture coordinates
 };
 
-layout(std140, binding = 2) uniform PBR {
+layout(std140, binding = materialBinding) uniform PBR {
   vec4 baseColorFactor;  // linear
   vec4 emissionFactor;   // rgb: linear; w: alpha below which ALPHA_MASK draws nothing
   vec4 fresnel;          // of the dielectric: F0 before it is clamped; w: specular
   vec4 factors;          // metallic, roughness, scale of the normal texture, strength of the occlusion
   vec4 normalFrame;      // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent
-  Placement placements[unitCount];
+  Placement placements[pbrUnitCount];
 };
 
 layout(binding = baseColorUnit) uniform sampler2D baseColorTexture;

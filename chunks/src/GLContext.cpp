@@ -49,10 +49,10 @@ GLContext::GLContext() {
 
 GLContext::~GLContext() = default;
 
-void GLContext::setProgramDefines(ShaderDefines defines) {
-  if (defines == programDefines_) return;
-  programDefines_ = std::move(defines);
-  ++programDefinesRevision_;
+void GLContext::setProgramVariant(ShaderVariant variant) {
+  if (variant == programVariant_) return;
+  programVariant_ = std::move(variant);
+  ++programVariantRevision_;
 }
 
 void GLContext::deleteOrphans() {

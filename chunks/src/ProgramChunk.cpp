@@ -19,7 +19,7 @@ struct ProgramText {
   }
 };
 
-/// What all chunks of equal source use under the same defines of the context.
+/// What all chunks of equal source use under the same variant of the context.
 struct LinkedProgram {
   ProgramText text;
   Result<GLProgram> program;  ///< an error, too, so that it is not tried each frame
@@ -31,9 +31,9 @@ struct ProgramCache {
 };
 
 struct ProgramObjects {
-  std::map<ShaderDefines, std::shared_ptr<LinkedProgram>> variants;
+  std::map<ShaderVariant, std::shared_ptr<LinkedProgram>> variants;
   const LinkedProgram* active = nullptr;
-  std::uint64_t activeRevision = 0;  ///< of the context's defines
+  std::uint64_t activeRevision = 0;  ///< of the context's variant
 };
 
 std::string shaderLog(GLuint shader) {
@@ -106,8 +106,9 @@ Result<bool> reload(const ShaderSource& source, LinkedProgram& program) {
 
 /// What a program is made of in this context.
 ShaderSource sourceIn(const GLContext& context, ShaderSource source) {
-  const ShaderDefines& defines = context.programDefines();
+  const auto& [defines, includeAliases] = context.programVariant();
   source.defines.insert(source.defines.end(), defines.begin(), defines.end());
+  source.includeAliases.insert(includeAliases.begin(), includeAliases.end());
   if (source.overrideFolder.empty()) source.overrideFolder = context.shaderFolder();
   return source;
 }
@@ -125,11 +126,11 @@ std::shared_ptr<LinkedProgram> findOrMake(GLContext& context, const ShaderSource
 
 void ProgramChunk::activate(GLContext& context, unsigned) const {
   auto& objects = context.objectsOf<ProgramObjects>(owner_);
-  if (!objects.active || objects.activeRevision != context.programDefinesRevision()) {
-    auto& variant = objects.variants[context.programDefines()];
+  if (!objects.active || objects.activeRevision != context.programVariantRevision()) {
+    auto& variant = objects.variants[context.programVariant()];
     if (!variant) variant = findOrMake(context, sourceIn(context, source_));
     objects.active = variant.get();
-    objects.activeRevision = context.programDefinesRevision();
+    objects.activeRevision = context.programVariantRevision();
   }
   const Result<GLProgram>& program = objects.active->program;
   if (!program) context.report(program.error());

@@ -209,6 +209,20 @@ void upload(GLuint texture, const TextureOptions& options, const Texels& texels)
   if (options.filter == TextureFilter::Mipmapped) glGenerateTextureMipmap(texture);
 }
 
+/// Brings the GL texture up to date, or reports why that cannot be.
+bool update(GLContext& context, TextureObjects& objects, const TextureOptions& options,
+            const Texels& texels) {
+  if (!fits(context, options.shape, texels)) return false;
+  const TextureLayout layout{texels.format.storage, texels.width, texels.height, texels.layers,
+                             levelsOf(options, texels)};
+  if (layout != objects.layout) {
+    objects.texture = makeTexture(layout, options);
+    objects.layout = layout;
+  }
+  upload(objects.texture, options, texels);
+  return true;
+}
+
 }  // namespace
 
 TextureChunk::TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptions options)
@@ -230,6 +244,12 @@ TextureChunk::TextureChunk(std::shared_ptr<const TextureImage> image, TextureOpt
   replaceImage(std::move(image));
 }
 
+TextureChunk::TextureChunk(std::shared_ptr<const TextureSource> source, TextureOptions options)
+    : options_(options) {
+  replaceImage(std::shared_ptr<const TextureImage>());
+  source_ = std::move(source);
+}
+
 void TextureChunk::setImage(std::shared_ptr<const FloatImage> image) {
   replaceImage(std::move(image));
 }
@@ -249,24 +269,27 @@ void TextureChunk::replaceImage(AnyImage image) {
       },
       image);
   image_ = std::move(image);
+  source_ = nullptr;
   ++version_;
 }
 
 unsigned TextureChunk::texture(GLContext& context) const {
   const bool hasImage = std::visit([](const auto& held) { return held && !isEmpty(*held); }, image_);
-  if (!hasImage) return 0;
+  if (!hasImage && !source_) return 0;
   auto& objects = context.objectsOf<TextureObjects>(owner_);
   if (objects.version == version_) return objects.texture;
-
-  const Texels texels = std::visit([this](const auto& held) { return texelsOf(*held, options_); }, image_);
-  if (!fits(context, options_.shape, texels)) return 0;
-  const TextureLayout layout{texels.format.storage, texels.width, texels.height, texels.layers,
-                             levelsOf(options_, texels)};
-  if (layout != objects.layout) {
-    objects.texture = makeTexture(layout, options_);
-    objects.layout = layout;
+  bool made = false;
+  if (source_) {
+    const Result<std::shared_ptr<const TextureImage>> image = (*source_)();
+    if (image) expectFits(options_, **image);
+    if (!image) context.report(image.error());
+    made = image && update(context, objects, options_, texelsOf(**image, options_));
+  } else {
+    made = std::visit(
+        [&](const auto& held) { return update(context, objects, options_, texelsOf(*held, options_)); },
+        image_);
   }
-  upload(objects.texture, options_, texels);
+  if (!made) return 0;
   objects.version = version_;
   return objects.texture;
 }
@@ -287,7 +310,7 @@ void TextureChunk::deactivate(GLContext&, unsigned slot) const {
 
 bool TextureChunk::isEqual(const Chunk& other) const {
   const auto& texture = static_cast<const TextureChunk&>(other);
-  return image_ == texture.image_ && options_ == texture.options_;
+  return image_ == texture.image_ && source_ == texture.source_ && options_ == texture.options_;
 }
 
 }  // namespace weft

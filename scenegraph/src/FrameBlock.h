@@ -27,6 +27,4 @@ struct FrameBlock {
 };
 static_assert(sizeof(FrameBlock) == 64 + 32 + kMaximumLights * 48 + 64);
 
-constexpr unsigned kFrameBinding = 0;
-
 }  // namespace weft

@@ -17,6 +17,7 @@
 #include "MeshPool.h"
 #include "weft/chunks/GLName.h"
 #include "weft/scenegraph/EnvironmentLight.h"
+#include "weft/shaders/Bindings.h"
 
 namespace weft {
 
@@ -107,14 +108,13 @@ struct FrameNumbers {
   int directionalLights = 0, placedLights = 0;
   const EnvironmentLight* environment = nullptr;
 
-  ShaderDefines defines(ReflectedPart part) const {
-    ShaderDefines defines{{"DIRECTIONAL_LIGHTS", fmt::to_string(directionalLights)},
-                          {"PLACED_LIGHTS", fmt::to_string(placedLights)}};
-    if (environment)
-      defines.insert(defines.end(), environment->defines().begin(), environment->defines().end());
-    if (part == ReflectedPart::Diffuse) defines.emplace_back("ONLY_DIFFUSE", "");
-    if (part == ReflectedPart::Specular) defines.emplace_back("ONLY_SPECULAR", "");
-    return defines;
+  ShaderVariant variant(ReflectedPart part) const {
+    ShaderVariant variant = environment ? environment->variant() : ShaderVariant();
+    variant.defines.emplace_back("DIRECTIONAL_LIGHTS", fmt::to_string(directionalLights));
+    variant.defines.emplace_back("PLACED_LIGHTS", fmt::to_string(placedLights));
+    if (part == ReflectedPart::Diffuse) variant.defines.emplace_back("ONLY_DIFFUSE", "");
+    if (part == ReflectedPart::Specular) variant.defines.emplace_back("ONLY_SPECULAR", "");
+    return variant;
   }
 };
 
@@ -273,7 +273,7 @@ void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, Frame
   const State* background =
       environment && environment->showsBackground ? &environment->background()->state() : nullptr;
   const MeshPage* page = nullptr;
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, objects.frame);
+  glBindBufferBase(GL_UNIFORM_BUFFER, bindings::frameBinding, objects.frame);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, objects.commands);
   if (environment) environment->lighting().activate(context);
   const auto finishBackground = [&] {
@@ -309,7 +309,7 @@ void RenderAction::Frame::draw(GLContext& context, const FlatScene& scene, Frame
   glFrontFace(GL_CCW);
   glBindVertexArray(0);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, bindings::frameBinding, 0);
 }
 
 RenderAction::RenderAction() : frame_(std::make_unique<Frame>()) {}
@@ -359,9 +359,9 @@ Result<void> RenderAction::renderTo(const Place& place, GLContext& context, cons
 
   auto& objects = context.objectsOf<FrameObjects>(owner_);
   fill(objects.frame, &numbers.block, sizeof numbers.block);
-  ShaderDefines defines = numbers.defines(place.part);
-  if (place.encoding == Encoding::Srgb) defines.emplace_back("ENCODE_SRGB", "");
-  context.setProgramDefines(std::move(defines));
+  ShaderVariant variant = numbers.variant(place.part);
+  if (place.encoding == Encoding::Srgb) variant.defines.emplace_back("ENCODE_SRGB", "");
+  context.setProgramVariant(std::move(variant));
   if (!frame_->models.empty()) {
     fill(objects.models, frame_->models.data(), frame_->models.size() * sizeof(ModelRows));
     fill(objects.commands, frame_->commands.data(), frame_->commands.size() * sizeof(DrawCommand));

@@ -325,10 +325,53 @@ TEST_F(BTFMaterialTest, BumpIsAMetallicRoughnessMaterial) {
     expectEqualPictures(picture(*scene(bump, square(), light)), picture(*scene(pbr, tilted, light)), 1e-3f);
 }
 
+// What changes without packing or uploading anything.
+TEST_F(BTFMaterialTest, ChangedOptionsShowWhatANewMaterialOfThemShows) {
+  const auto textures = valueOf(BTFTextures::create(*fittedField()));
+  const auto material = valueOf(BTFMaterial::create(textures));
+  const auto root = scene(material, square(), {0.3f, 0.2f, 0.9f});
+  FloatImage last = picture(*root, 32, 32);
+  for (const BTFMaterialOptions& options :
+       {BTFMaterialOptions{.textureScale = {2, 3}}, BTFMaterialOptions{.tint = {0.5f, 2, 0}},
+        BTFMaterialOptions{.exposure = -1.5f}, BTFMaterialOptions{.interpolatedViews = 1},
+        BTFMaterialOptions{.filter = TexelFilter::Bilinear}, BTFMaterialOptions{.doubleSided = true},
+        BTFMaterialOptions{}}) {
+    requireDone(material->setOptions(options));
+    const FloatImage changed = picture(*root, 32, 32);
+    const auto fresh = scene(valueOf(BTFMaterial::create(textures, options)), square(), {0.3f, 0.2f, 0.9f});
+    expectEqualPictures(changed, picture(*fresh, 32, 32), 0.0f);
+    if (!options.doubleSided) EXPECT_GT(compareImages(changed, last, 1e-3f).failingShare, 0.1);
+    last = changed;
+  }
+  for (const auto& [slot, chunk] : textures->chunks()) EXPECT_EQ(material->state().at(slot), chunk.get());
+}
+
+TEST_F(BTFMaterialTest, TintAndExposureMultiplyWhatIsShown) {
+  const auto textures = valueOf(BTFTextures::create(*fittedField()));
+  const auto shown = [&](const BTFMaterialOptions& options) {
+    return picture(*scene(valueOf(BTFMaterial::create(textures, options)), square(), {0, 0, 1}), 16, 16);
+  };
+  const FloatImage plain = shown({});
+  const FloatImage tinted = shown({.tint = {0.5f, 0.25f, 2.0f}, .exposure = 1.0f});
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(tinted.at(x, y, c),
+                    std::array{1.0f, 0.5f, 4.0f}.at(static_cast<std::size_t>(c)) * plain.at(x, y, c), 1e-6f);
+}
+
 TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {
   EXPECT_FALSE(BTFMaterial::create(fittedField(), {.interpolatedViews = 2}));
   EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {1, -1}}));
   EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {0, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {INFINITY, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.tint = {1, -1, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.tint = {1, NAN, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.exposure = 1000.0f}));
+  const auto material = valueOf(BTFMaterial::create(fittedField(), {.exposure = 1.0f}));
+  EXPECT_FALSE(material->setOptions({.interpolatedViews = 2}));
+  EXPECT_EQ(material->options().interpolatedViews, 3);
+  EXPECT_EQ(material->options().exposure, 1.0f);
 }
 
 }  // namespace

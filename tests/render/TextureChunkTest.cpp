@@ -4,11 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "GlTest.h"
+#include "TestSupport.h"
 #include "weft/chunks/CubeTextureChunk.h"
 
 namespace weft {
@@ -215,6 +217,70 @@ TEST(TextureChunkDeathTest, ShapesAskForImagesThatFitThem) {
   EXPECT_DEATH(
       TextureChunk(image(4, 1), {.shape = TextureShape::Rectangle, .filter = TextureFilter::Mipmapped}),
       "no mipmaps");
+}
+
+// Numbers that tell level, layer and texel.
+std::shared_ptr<TextureImage> levels(Precision precision, int count) {
+  auto image = std::make_shared<TextureImage>(5, 4, 3, 4, precision, count);
+  float number = 0.0f;
+  for (int level = 0; level < count; ++level)
+    for (int layer = 0; layer < 3; ++layer)
+      for (int y = 0; y < image->height(level); ++y)
+        for (int x = 0; x < image->width(level); ++x, number += 0.25f)
+          image->set(x, y, layer, 0, std::array{number, -number, 2.0f * number, 0.5f}, level);
+  return image;
+}
+
+TEST_F(TextureChunkTest, ATextureImageBringsItsLevels) {
+  for (Precision precision : {Precision::Half, Precision::Float}) {
+    const auto image = levels(precision, 3);
+    const TextureChunk chunk(image, {.shape = TextureShape::Array});
+    chunk.activate(context(), textureSlot(kUnit));
+    const GLuint texture = bound(GL_TEXTURE_BINDING_2D_ARRAY);
+    EXPECT_EQ(levelParameter(texture, GL_TEXTURE_INTERNAL_FORMAT),
+              precision == Precision::Half ? GL_RGBA16F : GL_RGBA32F);
+    for (int level = 0; level < 3; ++level) {
+      std::vector<float> texels(static_cast<std::size_t>(image->width(level) * image->height(level) * 3 * 4));
+      glGetTextureImage(texture, level, GL_RGBA, GL_FLOAT,
+                        static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
+      std::size_t i = 0;
+      for (int layer = 0; layer < 3; ++layer)
+        for (int y = 0; y < image->height(level); ++y)
+          for (int x = 0; x < image->width(level); ++x)
+            for (int c = 0; c < 4; ++c) ASSERT_EQ(texels[i++], image->at(x, y, layer, c, level));
+    }
+    chunk.deactivate(context(), textureSlot(kUnit));
+  }
+}
+
+TEST_F(TextureChunkTest, ASourceIsAskedOnceAContext) {
+  int asked = 0;
+  const auto source =
+      std::make_shared<const TextureSource>([&]() -> Result<std::shared_ptr<const TextureImage>> {
+        ++asked;
+        return levels(Precision::Half, 1);
+      });
+  const TextureChunk chunk(source, {.shape = TextureShape::Array});
+  for (int i = 0; i < 3; ++i) {
+    chunk.activate(context(), textureSlot(kUnit));
+    EXPECT_NE(bound(GL_TEXTURE_BINDING_2D_ARRAY), 0u);
+    chunk.deactivate(context(), textureSlot(kUnit));
+  }
+  EXPECT_EQ(asked, 1);
+  const auto other = test::valueOf(HeadlessWindow::create());
+  chunk.activate(other->context(), textureSlot(kUnit));
+  EXPECT_EQ(asked, 2);
+  chunk.deactivate(other->context(), textureSlot(kUnit));
+  window->makeCurrent();
+}
+
+TEST_F(TextureChunkTest, WhatASourceFailsWithIsReported) {
+  const auto source = std::make_shared<const TextureSource>(
+      []() -> Result<std::shared_ptr<const TextureImage>> { return fail("it is gone", "wool.rf.exr"); });
+  const TextureChunk chunk(source, {.shape = TextureShape::Array});
+  chunk.activate(context(), textureSlot(kUnit));
+  EXPECT_EQ(bound(GL_TEXTURE_BINDING_2D_ARRAY), 0u);
+  EXPECT_EQ(context().takeErrors().error().message(), "wool.rf.exr: it is gone");
 }
 
 }  // namespace

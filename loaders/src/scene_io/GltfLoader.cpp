@@ -28,7 +28,7 @@ namespace weft {
 namespace {
 
 constexpr int kDeepestNode = 1000;
-constexpr std::size_t kNodeMemory = 256;  // with its core, and what drawing it takes
+constexpr std::size_t kNodeMemory = 256;   // with its core, and what drawing it takes
 constexpr double kLargestRadius = 1e15;    // squares of distances, times light, are floats ...
 constexpr double kSmallestRadius = 1e-15;  // ... and not 0
 constexpr double kFarthest = 1e13;  // from the origin, in radii: doubles tell places in the scene apart

@@ -97,7 +97,7 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
 Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const std::string& uri,
                                                               const BTFMaterialOptions& options) const {
   WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, uri));
-  return loadBTFMaterial(path, options, options_.models);
+  return loadBTFMaterial(path, options, *fields_);
 }
 
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {

@@ -31,7 +31,11 @@ class GltfMaterials {
  public:
   /// All three must outlive this.
   GltfMaterials(const GltfFile& file, const GltfOptions& options, std::vector<std::string>& warnings)
-      : file_(file), options_(options), warnings_(warnings), textures_(file, warnings) {}
+      : file_(file),
+        options_(options),
+        warnings_(warnings),
+        textures_(file, warnings),
+        fields_(options.fields ? options.fields : std::make_shared<FieldCache>(options.models)) {}
 
   /// `index` -1: glTF's default material.
   Result<MeshDress> get(int index, Shading shading = Shading::Full);
@@ -50,6 +54,7 @@ class GltfMaterials {
   const GltfOptions& options_;
   std::vector<std::string>& warnings_;
   GltfTextures textures_;
+  std::shared_ptr<FieldCache> fields_;
   std::map<std::pair<int, Shading>, MeshDress> made_;
 };
 

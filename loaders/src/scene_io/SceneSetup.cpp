@@ -49,12 +49,12 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   btf.doubleSided = isShape;  // the inside of the cloth shows
   GltfOptions gltf;
   gltf.btf = btf;
-  gltf.models = options.models;
+  gltf.fields = options.fields ? options.fields : std::make_shared<FieldCache>(options.models);
   gltf.lights = options.lamps.empty();
   gltf.time = options.time;
   gltf.animation = options.animation;
   for (const auto& [name, file] : options.materialFiles) {
-    WEFT_TRY(gltf.replacements[name], loadBTFMaterial(file, btf, options.models));
+    WEFT_TRY(gltf.replacements[name], loadBTFMaterial(file, btf, *gltf.fields));
   }
   WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), gltf)
                                     : loadGltf(options.scene, gltf));

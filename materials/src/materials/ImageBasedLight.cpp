@@ -9,12 +9,10 @@
 #include "weft/chunks/TextureChunk.h"
 #include "weft/materials/ChunkMaterial.h"
 #include "weft/reflectance/MicrofacetTable.h"
+#include "weft/shaders/Bindings.h"
 
 namespace weft {
 namespace {
-
-// The texture units of environment.glsl.
-enum Unit : unsigned { LobesUnit = 16, MomentsUnit, GlossyUnit, MicrofacetTableUnit };
 
 constexpr int kParabolicSize = 128;
 constexpr int kParabolicExponents = 11;
@@ -75,7 +73,7 @@ std::shared_ptr<const Material> backgroundOf(const Environment& environment) {
   background->setChunk(ProgramSlot,
                        std::make_shared<ProgramChunk>(ShaderSource{"background.vert", "background.frag"}));
   background->setChunk(DepthSlot, std::make_shared<DepthChunk>(true, false));
-  background->setChunk(textureSlot(0),
+  background->setChunk(textureSlot(bindings::panoramaUnit),
                        std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(environment.image()),
                                                       TextureOptions{.filter = TextureFilter::Linear,
                                                                      .wrap = TextureWrap::Repeat,
@@ -89,19 +87,24 @@ std::shared_ptr<EnvironmentLight> makeEnvironmentLight(const Environment& enviro
                                                        const PrefilteredEnvironment& prefiltered,
                                                        LobeLookup lookup) {
   State lighting;
-  ShaderDefines defines{{"ENVIRONMENT", ""}};
+  ShaderVariant variant{.defines = {{"ENVIRONMENT", ""}}};
   if (lookup == LobeLookup::Paper) {
-    lighting.set(textureSlot(LobesUnit), smooth(parabolicMaps(prefiltered), TextureShape::Rectangle));
-    defines.emplace_back("ENVIRONMENT_PARABOLIC", "");
+    lighting.set(textureSlot(bindings::environmentLobesUnit),
+                 smooth(parabolicMaps(prefiltered), TextureShape::Rectangle));
+    variant.includeAliases["lobes.glsl"] = "lobes_paper.glsl";
   } else {
-    lighting.set(textureSlot(LobesUnit), smooth(withAlpha(prefiltered.lobes), TextureShape::Volume));
-    defines.emplace_back("ENVIRONMENT_LOBES", std::to_string(PrefilteredEnvironment::kLobesPerOctave));
+    lighting.set(textureSlot(bindings::environmentLobesUnit),
+                 smooth(withAlpha(prefiltered.lobes), TextureShape::Volume));
+    variant.defines.emplace_back("ENVIRONMENT_LOBES",
+                                 std::to_string(PrefilteredEnvironment::kLobesPerOctave));
   }
-  lighting.set(textureSlot(MomentsUnit), smooth(withAlpha(prefiltered.moments), TextureShape::Volume));
-  lighting.set(textureSlot(GlossyUnit), smooth(withAlpha(prefiltered.glossy), TextureShape::Volume));
-  lighting.set(textureSlot(MicrofacetTableUnit),
+  lighting.set(textureSlot(bindings::environmentMomentsUnit),
+               smooth(withAlpha(prefiltered.moments), TextureShape::Volume));
+  lighting.set(textureSlot(bindings::environmentGlossyUnit),
+               smooth(withAlpha(prefiltered.glossy), TextureShape::Volume));
+  lighting.set(textureSlot(bindings::microfacetTableUnit),
                smooth(std::make_shared<const FloatImage>(MicrofacetTable().image()), TextureShape::Flat));
-  return std::make_shared<EnvironmentLight>(std::move(lighting), std::move(defines),
+  return std::make_shared<EnvironmentLight>(std::move(lighting), std::move(variant),
                                             backgroundOf(environment), prefiltered.scale);
 }
 

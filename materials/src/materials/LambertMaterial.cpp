@@ -4,6 +4,7 @@
 #include "weft/chunks/RasterChunk.h"
 #include "weft/chunks/TextureChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
+#include "weft/shaders/Bindings.h"
 
 namespace weft {
 
@@ -11,13 +12,15 @@ LambertMaterial::LambertMaterial(const LambertOptions& options) {
   ShaderSource source{.vertex = "mesh.vert", .fragment = "lambert.frag"};
   if (options.baseColorTexture) {
     source.defines.emplace_back("BASE_COLOR_TEXTURE", "");
-    setChunk(textureSlot(0), std::make_shared<TextureChunk>(options.baseColorTexture,
-                                                            TextureOptions{.filter = TextureFilter::Mipmapped,
-                                                                           .wrap = TextureWrap::Repeat,
-                                                                           .srgb = true}));
+    setChunk(
+        textureSlot(bindings::baseColorUnit),
+        std::make_shared<TextureChunk>(
+            options.baseColorTexture,
+            TextureOptions{.filter = TextureFilter::Mipmapped, .wrap = TextureWrap::Repeat, .srgb = true}));
   }
   setChunk(ProgramSlot, std::make_shared<ProgramChunk>(std::move(source)));
-  setChunk(uniformSlot(2), std::make_shared<UniformBlockChunk>(blockBytes(options.baseColor)));
+  setChunk(uniformSlot(bindings::materialBinding),
+           std::make_shared<UniformBlockChunk>(blockBytes(options.baseColor)));
   if (options.doubleSided) setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
 }
 

@@ -11,21 +11,10 @@
 #include "weft/chunks/ProgramChunk.h"
 #include "weft/chunks/RasterChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
+#include "weft/shaders/Bindings.h"
 
 namespace weft {
 namespace {
-
-// The textures of pbr.frag: texture units, and indices of the block's placements.
-enum Unit : unsigned {
-  BaseColorUnit,
-  MetallicRoughnessUnit,
-  NormalUnit,
-  EmissionUnit,
-  OcclusionUnit,
-  SpecularUnit,
-  SpecularColorUnit,
-  UnitCount
-};
 
 // The block `PBR` of pbr.frag, std140.
 struct PlacementBlock {
@@ -38,7 +27,7 @@ struct PBRBlock {
   glm::vec4 fresnel;       ///< of the dielectric: F0 before it is clamped, w: specular
   glm::vec4 factors;       ///< metallic, roughness, normal scale, occlusion strength
   glm::vec4 tangentFrame;  ///< of the normal texture, columns
-  std::array<PlacementBlock, UnitCount> placements;
+  std::array<PlacementBlock, bindings::pbrUnitCount> placements;
 };
 
 PlacementBlock blockOf(const TexturePlacement& placement) {
@@ -84,16 +73,16 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
     setChunk(textureSlot(unit), texture.image);
     define(name);
   };
-  add(BaseColorUnit, options.baseColorTexture, "BASE_COLOR_TEXTURE");
-  add(EmissionUnit, options.emissionTexture, "EMISSION_TEXTURE");
+  add(bindings::baseColorUnit, options.baseColorTexture, "BASE_COLOR_TEXTURE");
+  add(bindings::emissionUnit, options.emissionTexture, "EMISSION_TEXTURE");
   if (options.unlit) {
     define("UNLIT");
   } else {
-    add(MetallicRoughnessUnit, options.metallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE");
-    add(NormalUnit, options.normalTexture, "NORMAL_TEXTURE");
-    add(OcclusionUnit, options.occlusionTexture, "OCCLUSION_TEXTURE");
-    add(SpecularUnit, options.specularTexture, "SPECULAR_TEXTURE");
-    add(SpecularColorUnit, options.specularColorTexture, "SPECULAR_COLOR_TEXTURE");
+    add(bindings::metallicRoughnessUnit, options.metallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE");
+    add(bindings::normalUnit, options.normalTexture, "NORMAL_TEXTURE");
+    add(bindings::occlusionUnit, options.occlusionTexture, "OCCLUSION_TEXTURE");
+    add(bindings::specularUnit, options.specularTexture, "SPECULAR_TEXTURE");
+    add(bindings::specularColorUnit, options.specularColorTexture, "SPECULAR_COLOR_TEXTURE");
   }
   if (options.alphaMode == AlphaMode::Mask) define("ALPHA_MASK");
   if (options.alphaMode == AlphaMode::Blend) {
@@ -103,7 +92,8 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
   }
   if (options.doubleSided) setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
   setChunk(ProgramSlot, std::make_shared<ProgramChunk>(std::move(source)));
-  setChunk(uniformSlot(2), std::make_shared<UniformBlockChunk>(blockBytes(blockOf(options))));
+  setChunk(uniformSlot(bindings::materialBinding),
+           std::make_shared<UniformBlockChunk>(blockBytes(blockOf(options))));
 }
 
 }  // namespace weft

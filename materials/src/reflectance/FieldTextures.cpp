@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "weft/shaders/Bindings.h"
+
 namespace weft {
 namespace {
 
@@ -101,6 +103,14 @@ FloatImage nodesOf(const LightQuadrature& quadrature) {
   return nodes;
 }
 
+std::map<std::string, std::string> aliasesOf(const FieldFormula& formula) {
+  const bool ofLights = formula.model().layerDirections() == LayerDirections::Lights;
+  return {{"model.glsl", formula.model().shaderFile()},
+          {"shade.glsl", ofLights ? "shade_lights.glsl" : "shade_views.glsl"},
+          {"surroundings.glsl",
+           formula.integratesEnvironments() ? "surroundings_formula.glsl" : "surroundings_quadrature.glsl"}};
+}
+
 std::uint64_t textureBytes(const FloatImage& image, int arrayLayers) {
   const std::uint64_t texelBytes = image.precision() == Precision::Half ? 8 : 16;
   return texelBytes * static_cast<std::uint64_t>(image.width()) * static_cast<std::uint64_t>(image.height()) *
@@ -150,7 +160,7 @@ FieldProgram FieldProgram::create(const ReflectanceField& field) {
   const ReflectanceModel& model = field.model();
   const FieldFormula& formula = field.formula();
   FieldProgram program{.defines = model.shaderDefines(),
-                       .includeAliases = {{"model.glsl", model.shaderFile()}},
+                       .includeAliases = aliasesOf(formula),
                        .texts = {},
                        .block = {.lowestLightZ = formula.lowestLightZ(),
                                  .lowestViewZ = formula.lowestViewZ(),
@@ -161,11 +171,9 @@ FieldProgram FieldProgram::create(const ReflectanceField& field) {
   program.defines["SHARED_TEXELS"] = std::to_string(FieldTextures::sharedTexels(model));
   program.defines["LAYER_TEXELS"] = std::to_string(FieldTextures::layerTexels(model));
   program.defines["DECODE"] = decodeFunction(field.description().encoding);
-  if (model.layerDirections() == LayerDirections::Lights) program.defines["LAYERS_ARE_LIGHTS"] = "";
   if (field.description().hasCosine) program.defines["MODEL_HAS_COSINE"] = "";
-  if (!formula.integratesEnvironments()) program.defines["ENVIRONMENT_BY_QUADRATURE"] = "";
   if (const std::string text = model.shaderText(); !text.empty()) program.texts[model.shaderFile()] = text;
-  int unit = kFirstTableUnit;
+  int unit = bindings::firstTableUnit;
   for (const auto& [name, table] : field.tables()) program.defines["TABLE_" + name] = std::to_string(unit++);
   if (formula.layerCount() > 0) program.lookup = LayerLookup::create(formula.triangulation());
   return program;

@@ -11,7 +11,7 @@
 
 #include "weft/core/Contract.h"
 #include "weft/core/Result.h"
-#include "weft/shaders/ShaderDefines.h"
+#include "weft/shaders/ShaderVariant.h"
 
 namespace weft {
 
@@ -63,12 +63,12 @@ class GLContext {
     return *static_cast<T*>(value.get());
   }
 
-  /// What every program that is activated has defined, beside its own: what a renderer keeps the same for a
-  /// whole frame, and programs are faster for knowing, as the number of lights.
-  const ShaderDefines& programDefines() const { return programDefines_; }
-  void setProgramDefines(ShaderDefines defines);
-  /// Another one for other defines.
-  std::uint64_t programDefinesRevision() const { return programDefinesRevision_; }
+  /// What every program that is activated is made with beside its own source: what a renderer keeps the same
+  /// for a whole frame, and programs are faster for knowing, as the number of lights.
+  const ShaderVariant& programVariant() const { return programVariant_; }
+  void setProgramVariant(ShaderVariant variant);
+  /// Another one for another variant.
+  std::uint64_t programVariantRevision() const { return programVariantRevision_; }
 
   /// Where programs of this context look for their files first: to edit shaders while an application runs
   /// (reloadPrograms()). Empty for nowhere; set it before the first frame.
@@ -100,8 +100,8 @@ class GLContext {
   std::unordered_map<std::type_index, std::shared_ptr<void>> shared_;
   std::unordered_map<const void*, Objects> objects_;  ///< by the owner's address
   std::size_t nextBucket_ = 0;                        ///< of objects_, where deleteOrphans() goes on
-  ShaderDefines programDefines_;
-  std::uint64_t programDefinesRevision_ = 1;
+  ShaderVariant programVariant_;
+  std::uint64_t programVariantRevision_ = 1;
   std::filesystem::path shaderFolder_;
   std::optional<Error> firstError_;
 };

@@ -8,7 +8,7 @@
 namespace weft {
 
 /// A vertex and a fragment shader, compiled per context at the first activation, once for all chunks of equal
-/// source, and anew for other values of GLContext::programDefines(). Default: no program.
+/// source, and anew for another GLContext::programVariant(). Default: no program.
 ///
 /// A program that does not compile is reported to the context at every activation, with file and line, and
 /// nothing must be drawn with it. Blocks and samplers name their bindings in GLSL: `layout(binding = N)`.

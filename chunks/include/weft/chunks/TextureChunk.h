@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -9,6 +10,7 @@
 #include "weft/chunks/Sampling.h"
 #include "weft/core/FloatImage.h"
 #include "weft/core/Image.h"
+#include "weft/core/Result.h"
 #include "weft/core/TextureImage.h"
 
 namespace weft {
@@ -33,6 +35,9 @@ struct TextureOptions {
   bool operator==(const TextureOptions&) const = default;
 };
 
+/// Gives the texels of a texture that keeps none beside GL's: called once a context, on its thread.
+using TextureSource = std::function<Result<std::shared_ptr<const TextureImage>>()>;
+
 /// A texture on a unit, made from an image that it shares. Default: nothing bound, on any target of the unit.
 ///
 /// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the image's
@@ -47,6 +52,10 @@ class TextureChunk : public Chunk {
   explicit TextureChunk(std::shared_ptr<const Image> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const WideImage> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const TextureImage> image, TextureOptions options = {});
+
+  /// What the source fails with is reported to the context, and the unit left empty. Two chunks are equal
+  /// where they have the same source.
+  explicit TextureChunk(std::shared_ptr<const TextureSource> source, TextureOptions options = {});
 
   Slot kind() const override { return TextureSlot; }
   void activate(GLContext& context, unsigned slot) const override;
@@ -68,6 +77,7 @@ class TextureChunk : public Chunk {
   unsigned texture(GLContext& context) const;
 
   AnyImage image_;
+  std::shared_ptr<const TextureSource> source_;  ///< instead of an image
   TextureOptions options_;
   std::uint64_t version_ = 0;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();

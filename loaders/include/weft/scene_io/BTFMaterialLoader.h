@@ -6,10 +6,16 @@
 #include "weft/core/Result.h"
 #include "weft/materials/BTFMaterial.h"
 #include "weft/reflectance/ModelRegistry.h"
+#include "weft/scene_io/FieldCache.h"
 
 namespace weft {
 
-/// A `.rf.exr` as a material: readReflectanceField(), then BTFMaterial::create().
+/// A `.rf.exr` as a material, with the textures that others of the cache have; fails as FieldCache::load()
+/// and BTFMaterial::create() do.
+Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,
+                                                     const BTFMaterialOptions& options, FieldCache& fields);
+
+/// The same of a file that no other material shows.
 Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,
                                                      const BTFMaterialOptions& options = {},
                                                      const ModelRegistry& models = ModelRegistry::builtin());

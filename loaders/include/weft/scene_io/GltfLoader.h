@@ -11,6 +11,7 @@
 #include "weft/core/Result.h"
 #include "weft/materials/BTFMaterial.h"
 #include "weft/reflectance/ModelRegistry.h"
+#include "weft/scene_io/FieldCache.h"
 #include "weft/scenegraph/Bounds.h"
 #include "weft/scenegraph/Camera.h"
 #include "weft/scenegraph/Material.h"
@@ -41,6 +42,8 @@ struct GltfOptions {
   BTFMaterialOptions btf{};
   /// That their fields may be of.
   ModelRegistry models = ModelRegistry::builtin();
+  /// Where the fields of those come from, instead of models; null: each is read once for this file.
+  std::shared_ptr<FieldCache> fields{};
   /// Poses the scene as one of its animations has it so many seconds after its start; none: as it was
   /// modelled. Before the first and after the last key a value stays as it is there.
   std::optional<double> time{};

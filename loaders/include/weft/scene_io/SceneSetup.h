@@ -33,15 +33,17 @@ struct SceneOptions {
   std::map<std::string, std::string> materialFiles{};  ///< a `.rf.exr` a material; "*" for all not named
   BTFMaterialOptions btf{};
   ModelRegistry models = ModelRegistry::builtin();  ///< that reflectance fields may be of
-  std::optional<double> time{};                     ///< seconds after the start of an animation
-  std::string animation{};                          ///< which one; empty: the first
-  std::vector<Lamp> lamps{};                        ///< instead of the file's lights, if any
-  std::string cameraName{};                         ///< empty: the file's first, or all of the scene
-  std::optional<PointOfView> viewpoint{};           ///< instead of a name
-  float aspect = 4.0f / 3.0f;                       ///< of the picture: width / height
-  bool turns = false;                ///< a camera of our own keeps all in the picture while it turns
-  std::string environment{};         ///< a file or a built-in name; empty for none
-  double environmentRotation = 0.0;  ///< degrees, clockwise seen from above
+  /// Where those come from, instead of models; null: each is read once for this scene.
+  std::shared_ptr<FieldCache> fields{};
+  std::optional<double> time{};            ///< seconds after the start of an animation
+  std::string animation{};                 ///< which one; empty: the first
+  std::vector<Lamp> lamps{};               ///< instead of the file's lights, if any
+  std::string cameraName{};                ///< empty: the file's first, or all of the scene
+  std::optional<PointOfView> viewpoint{};  ///< instead of a name
+  float aspect = 4.0f / 3.0f;              ///< of the picture: width / height
+  bool turns = false;                      ///< a camera of our own keeps all in the picture while it turns
+  std::string environment{};               ///< a file or a built-in name; empty for none
+  double environmentRotation = 0.0;        ///< degrees, clockwise seen from above
   LobeLookup environmentLobes = LobeLookup::Fitted;
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 
+#include "weft/chunks/UniformBlockChunk.h"
 #include "weft/core/Result.h"
+#include "weft/materials/BTFTextures.h"
 #include "weft/materials/ChunkMaterial.h"
-#include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {
 
@@ -19,33 +21,44 @@ struct BTFMaterialOptions {
   /// Repetitions of the material per unit of texture coordinates; positive, because a mirrored image would
   /// need mirrored directions.
   glm::vec2 textureScale{1.0f};
+  glm::vec3 tint{1.0f};   ///< linear; what is shown is multiplied by it
+  float exposure = 0.0f;  ///< stops: what is shown is multiplied by 2 to their power
   int interpolatedViews =
       3;  ///< 3: paper M eq. 4; 1: the nearest measured view alone, faster, with seams between views
   TexelFilter filter = TexelFilter::Nearest;
-  /// Stores the layers of models that have lobes (`rfnl`) a second time, as environments are asked for them:
-  /// frames under an environment take a third less, the material twice the memory.
+  /// BTFTextures::create()'s, where a field or a file is given; textures are prepared or not.
   bool preparedForEnvironments = false;
   bool doubleSided = false;  ///< draw back faces, too, with the relief of the front seen in the mirror
 };
 
 /// A measured material, rendered from its reflectance field under point and directional lights (paper M 5.1
-/// and 5.4) and an environment (5.2): chunks for the parameters, the view lookup and the program.
+/// and 5.4) and an environment (5.2): shared textures, and how they are shown.
 ///
 /// Needs meshes with texture coordinates and tangents; the texture repeats. GLSL: shaders/btf.frag, which
 /// computes what ReflectanceField::evaluate() and underEnvironment() do.
 class BTFMaterial : public ChunkMaterial {
  public:
-  /// Fails on options that are none, and where the views do not fit into one array texture of 2,048 layers,
-  /// which every GL 4.5 has.
-  static Result<std::shared_ptr<BTFMaterial>> create(std::shared_ptr<const ReflectanceField> field,
+  /// Costs next to nothing. Fails on options that are none.
+  static Result<std::shared_ptr<BTFMaterial>> create(std::shared_ptr<const BTFTextures> textures,
+                                                     const BTFMaterialOptions& options = {});
+  /// With textures of its own, which stay in memory; fails where BTFTextures::create() does, too.
+  static Result<std::shared_ptr<BTFMaterial>> create(const std::shared_ptr<const ReflectanceField>& field,
                                                      const BTFMaterialOptions& options = {});
 
-  const ReflectanceField& field() const { return *field_; }
+  const std::shared_ptr<const BTFTextures>& textures() const { return textures_; }
+  const BTFMaterialOptions& options() const { return options_; }
+  /// Shows the same textures otherwise. Scale, tint and exposure are numbers of a block; filter and views
+  /// choose another program. Not while something is drawn. Fails on options that are none, and changes
+  /// nothing then.
+  Result<void> setOptions(const BTFMaterialOptions& options);
 
  private:
-  explicit BTFMaterial(std::shared_ptr<const ReflectanceField> field) : field_(std::move(field)) {}
+  BTFMaterial(std::shared_ptr<const BTFTextures> textures, const BTFMaterialOptions& options);
+  void setProgram();
 
-  std::shared_ptr<const ReflectanceField> field_;
+  std::shared_ptr<const BTFTextures> textures_;
+  BTFMaterialOptions options_;
+  std::shared_ptr<UniformBlockChunk> block_;
 };
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 
@@ -12,7 +13,7 @@
 namespace weft {
 
 /// A field's parameters as textures for a GPU. With FieldProgram the one place that knows how they lie in
-/// texels; shaders/field_numbers.glsl reads them.
+/// texels; shaders/fetch.glsl reads them.
 ///
 /// They have the field's levels. Both are arrays of RGBA texels, as precise as the field. A colour channel
 /// has sharedTexels() of them for all layers, one after another: the base colour, and from its alpha on the
@@ -38,28 +39,24 @@ struct FieldTextures {
 /// Bytes of the textures that create() makes of a field, not prepared for environments.
 std::uint64_t gpuBytes(const ReflectanceField& field);
 
-/// The uniform block `ReflectanceField` of shaders/btf.frag, std140.
+/// The uniform block `ReflectanceField` of shaders/fetch.glsl, std140.
 struct FieldBlock {
   glm::vec2 textureScale{1.0f};  ///< repetitions per unit of texture coordinates
   float lowestLightZ = 0.0f;     ///< FieldFormula's
   float lowestViewZ = 0.0f;      ///< likewise
+  glm::vec3 tint{1.0f};          ///< what is shown is multiplied by it
   float quadratureExponent = 1.0f;
-  float unused[3] = {};
 };
 
 /// What a program must know of a field beside FieldTextures to show it: small, and the same for every
 /// program.
 struct FieldProgram {
-  std::map<std::string, std::string> defines;         ///< `#define NAME VALUE`
+  std::map<std::string, std::string> defines;         ///< `#define NAME VALUE`; TABLE_NAME: a table's unit
   std::map<std::string, std::string> includeAliases;  ///< as ShaderSource's
   std::map<std::string, std::string> texts;           ///< likewise
   FieldBlock block;
   LayerLookup lookup;     ///< empty for a model without layers
   FloatImage quadrature;  ///< a texel a node: light, weight; empty where the model's formula integrates
-
-  /// The texture unit of a field's first table; each define TABLE_NAME is the unit of that table.
-  static constexpr int kFirstTableUnit = 8;
-  static constexpr int kMostTables = 8;
 
   static FieldProgram create(const ReflectanceField& field);
 };

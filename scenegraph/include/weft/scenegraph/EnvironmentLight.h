@@ -5,7 +5,7 @@
 #include "weft/chunks/State.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Material.h"
-#include "weft/shaders/ShaderDefines.h"
+#include "weft/shaders/ShaderVariant.h"
 
 namespace weft {
 
@@ -14,17 +14,17 @@ namespace weft {
 class EnvironmentLight : public Light {
  public:
   /// `lighting`: chunks that every program finds beside those of its material, in slots that materials leave
-  /// empty; `defines`: what programs are told of them; `background`: what is drawn behind everything;
+  /// empty; `variant`: what programs are told of them; `background`: what is drawn behind everything;
   /// `scale`: what the values of `lighting` are multiplied by.
-  EnvironmentLight(State lighting, ShaderDefines defines, std::shared_ptr<const Material> background,
+  EnvironmentLight(State lighting, ShaderVariant variant, std::shared_ptr<const Material> background,
                    float scale)
       : lighting_(std::move(lighting)),
-        defines_(std::move(defines)),
+        variant_(std::move(variant)),
         background_(std::move(background)),
         scale_(scale) {}
 
   const State& lighting() const { return lighting_; }
-  const ShaderDefines& defines() const { return defines_; }
+  const ShaderVariant& variant() const { return variant_; }
   const std::shared_ptr<const Material>& background() const { return background_; }
   float scale() const { return scale_; }
 
@@ -33,7 +33,7 @@ class EnvironmentLight : public Light {
 
  private:
   State lighting_;
-  ShaderDefines defines_;
+  ShaderVariant variant_;
   std::shared_ptr<const Material> background_;
   float scale_;
 };

@@ -1,0 +1,104 @@
+#include "weft/materials/BTFTextures.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+
+#include "weft/chunks/CubeTextureChunk.h"
+#include "weft/chunks/TextureChunk.h"
+#include "weft/shaders/Bindings.h"
+
+namespace weft {
+namespace {
+
+constexpr int kMaximumLayers = 2048;
+
+// The images of FieldTextures that are not empty, by their units.
+using Images = std::map<int, std::shared_ptr<const TextureImage>>;
+
+Images packed(const ReflectanceField& field, bool prepared) {
+  FieldTextures textures = FieldTextures::create(field, prepared);
+  Images images;
+  const auto add = [&](int unit, TextureImage& image) {
+    if (!image.empty()) images[unit] = std::make_shared<const TextureImage>(std::move(image));
+  };
+  add(bindings::layerNumbersUnit, textures.layers);
+  add(bindings::sharedNumbersUnit, textures.shared);
+  add(bindings::preparedNumbersUnit, textures.preparedLayers);
+  int unit = bindings::firstTableUnit;
+  for (auto& [name, table] : textures.tables) add(unit++, table);
+  return images;
+}
+
+// What is packed; with a source only until it is on a GPU: then the next to ask has all of it made anew.
+class PackedField {
+ public:
+  PackedField(Images images, bool prepared, BTFTextures::FieldSource source)
+      : images_(std::move(images)), prepared_(prepared), source_(std::move(source)) {}
+
+  Result<std::shared_ptr<const TextureImage>> take(int unit) {
+    const std::lock_guard lock(mutex_);
+    if (!images_[unit]) {
+      WEFT_TRY(const ReflectanceField field, source_());
+      images_ = packed(field, prepared_);
+    }
+    return source_ ? std::exchange(images_[unit], nullptr) : images_[unit];
+  }
+
+ private:
+  std::mutex mutex_;
+  Images images_;
+  bool prepared_;
+  BTFTextures::FieldSource source_;
+};
+
+std::shared_ptr<const Chunk> tableOf(FloatImage image) {
+  return std::make_shared<TextureChunk>(std::make_shared<const FloatImage>(std::move(image)),
+                                        TextureOptions{.shape = TextureShape::Rectangle});
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const ReflectanceField& field,
+                                                               bool preparedForEnvironments,
+                                                               FieldSource source) {
+  if (const int layers = FieldTextures::arrayLayers(field.formula()); layers > kMaximumLayers)
+    return fail(fmt::format("the field needs {} texture layers of at most {}", layers, kMaximumLayers));
+  if (const std::size_t tables = field.tables().size(); tables > bindings::mostTables)
+    return fail(fmt::format("the field has {} tables of at most {}", tables, bindings::mostTables));
+  std::shared_ptr<BTFTextures> made(new BTFTextures);
+  made->setProgram(FieldProgram::create(field));
+  const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());
+  if (prepared) made->source_.defines.emplace_back("ENVIRONMENT_LAYERS", "");
+  const Images images = packed(field, prepared);
+  const auto shelf = std::make_shared<PackedField>(images, prepared, std::move(source));
+  for (const auto& [unit, image] : images)
+    made->add(unit, std::make_shared<TextureChunk>(
+                        std::make_shared<const TextureSource>([shelf, unit] { return shelf->take(unit); }),
+                        TextureOptions{.shape = TextureShape::Array}));
+  return made;
+}
+
+// The program, and the small tables that it reads.
+void BTFTextures::setProgram(FieldProgram program) {
+  block_ = program.block;
+  source_ = {.vertex = "mesh.vert",
+             .fragment = "btf.frag",
+             .defines = {program.defines.begin(), program.defines.end()},
+             .includeAliases = std::move(program.includeAliases),
+             .texts = std::move(program.texts)};
+  if (!program.lookup.triangles.empty()) {
+    add(bindings::triangleOfDirectionUnit,
+        std::make_shared<CubeTextureChunk>(
+            std::make_shared<const FloatImage>(std::move(program.lookup.triangleOfDirection))));
+    add(bindings::trianglesUnit, tableOf(std::move(program.lookup.triangles)));
+  }
+  if (!program.quadrature.empty()) add(bindings::quadratureUnit, tableOf(std::move(program.quadrature)));
+}
+
+void BTFTextures::add(int unit, std::shared_ptr<const Chunk> chunk) {
+  chunks_.emplace_back(textureSlot(static_cast<unsigned>(unit)), std::move(chunk));
+}
+
+}  // namespace weft

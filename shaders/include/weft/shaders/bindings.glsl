@@ -1,0 +1,33 @@
+// Texture units and bindings of uniform blocks, named once: shaders include this file, and so does Bindings.h for C++.
+
+// Uniform blocks.
+const int frameBinding = 0;     // lights.glsl, filled by the renderer
+const int materialBinding = 2;  // what the fragment shader of a material reads
+
+// Textures of btf.frag.
+const int layerNumbersUnit = 0;
+const int sharedNumbersUnit = 1;
+const int triangleOfDirectionUnit = 2;
+const int trianglesUnit = 3;
+const int quadratureUnit = 4;
+const int preparedNumbersUnit = 5;
+const int firstTableUnit = 8;  // of a field's tables, as many as mostTables
+const int mostTables = 8;
+
+// Textures of pbr.frag, which is also the order of its placements, and of lambert.frag.
+const int baseColorUnit = 0;
+const int metallicRoughnessUnit = 1;
+const int normalUnit = 2;
+const int emissionUnit = 3;
+const int occlusionUnit = 4;
+const int specularUnit = 5;
+const int specularColorUnit = 6;
+const int pbrUnitCount = 7;
+
+const int panoramaUnit = 0;  // background.frag
+
+// Textures of environment.glsl, beside those of every material.
+const int environmentLobesUnit = 16;
+const int environmentMomentsUnit = 17;
+const int environmentGlossyUnit = 18;
+const int microfacetTableUnit = 19;

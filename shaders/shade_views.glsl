@@ -1,0 +1,28 @@
+// Shading a field whose layers are measured views: the same layers for all lights.
+#include "layer_lookup.glsl"
+#include "field_value.glsl"
+#include "incoming.glsl"
+
+vec3 variedDirection(vec3 light, vec3 view) {
+  return light;
+}
+
+// The radiance towards the eye that one texel would give here.
+vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame, EnvironmentFrame environment) {
+  Texel texel = fetchTexel(place);
+  vec3 seenFrom = notBelow(view, lowestViewZ);
+  LayerWeights layers = findLayers(view);
+  vec3 radiance = vec3(0.0);
+  for (int k = 0; k < 3; ++k) {
+    if (layers.weight[k] == 0.0) continue;
+    Layer layer = fetchLayer(place, layers.index[k]);
+    vec3 value = environmentValue(texel, layer, place, layers.index[k], seenFrom, environment);
+    for (int i = 0; i < incomingCount(); ++i) {
+      vec3 l;
+      vec3 light = incomingAt(i, frame, environment, l);
+      if (l.z > 0.0) value += light * valueWithCosine(texel, layer, l, seenFrom);
+    }
+    radiance += layers.weight[k] * value;
+  }
+  return radiance;
+}
