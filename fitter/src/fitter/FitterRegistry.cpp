@@ -10,11 +10,11 @@ namespace weft {
 
 FitterRegistry FitterRegistry::builtin() {
   FitterRegistry registry;
-  registry.add("rfp", RfpFitter::create);
+  registry.add("rfp", makeRfpFitter);
   registry.add("rfnl", RfnlFitter::create);
-  registry.add("lfp", RfpFitter::createForLights);
+  registry.add("lfp", makeLfpFitter);
   registry.add("lfnl", RfnlFitter::createForLights);
-  registry.add("ptm", RfpFitter::createForOneView);
+  registry.add("ptm", makePtmFitter);
   registry.add("laf", LafFitter::create);
   registry.add("slaf", LafFitter::create);
   registry.add("bump", BumpFitter::create);
