@@ -82,6 +82,10 @@ Result<void> AtomicFile::commit() {
   return target.syncFolder();
 }
 
+void AtomicFile::sweep(const fs::path& folder) {
+  LockedTemporary::sweep(folder);
+}
+
 void AtomicFile::removeAllPending() {
   Pending& all = pending();
   const std::scoped_lock lock(all.mutex);

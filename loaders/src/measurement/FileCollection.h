@@ -19,6 +19,8 @@ class FileCollection {
   virtual const std::vector<std::string>& names() const = 0;
   /// The contents of names()[index]; fails where they are damaged or larger than kLargestImageFile.
   virtual Result<std::vector<std::uint8_t>> read(int index) const = 0;
+  /// A checksum of the contents of names()[index].
+  virtual Result<std::uint64_t> checksum(int index) const = 0;
 };
 
 /// All files below a folder, sorted by name. Fails on a folder that may not be read, and on more than a

@@ -4,6 +4,7 @@
 
 #include "FileCollection.h"
 #include "FilePath.h"
+#include "weft/core/Checksum.h"
 #include "weft/io/FileBytes.h"
 
 namespace weft {
@@ -22,6 +23,10 @@ class FolderCollection : public FileCollection {
   const std::vector<std::string>& names() const override { return names_; }
   Result<std::vector<std::uint8_t>> read(int index) const override {
     return readFileBytes(folder_ / names_[static_cast<std::size_t>(index)], kLargestImageFile);
+  }
+  Result<std::uint64_t> checksum(int index) const override {
+    WEFT_TRY(const std::vector<std::uint8_t> bytes, read(index));
+    return checksumOf(std::as_bytes(std::span(bytes)));
   }
 
  private:

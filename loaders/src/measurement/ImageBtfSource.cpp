@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <new>
 
+#include "weft/core/Checksum.h"
 #include "weft/core/Contract.h"
 #include "weft/io/ImageFile.h"
 #include "weft/io/ParallelTry.h"
@@ -112,6 +113,17 @@ Result<void> ImageBtfSource::readSamples(int firstRow, int rowCount, Sample* out
               convert);
   }
   return {};
+}
+
+// Of the files: that saves decoding them.
+Result<std::uint64_t> ImageBtfSource::checksum() const {
+  std::vector<std::uint64_t> ofFiles(fileOfPair_.size());
+  WEFT_TRY_VOID(parallelTry(static_cast<int>(ofFiles.size()), [&](int pair) -> Result<void> {
+    const auto i = static_cast<std::size_t>(pair);
+    WEFT_TRY(ofFiles[i], files_->checksum(fileOfPair_[i]));
+    return {};
+  }));
+  return checksumOf(std::as_bytes(std::span(ofFiles)), description_.checksum());
 }
 
 }  // namespace weft

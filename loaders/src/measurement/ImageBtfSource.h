@@ -20,6 +20,7 @@ class ImageBtfSource : public BtfSource {
 
   const BtfDescription& description() const override { return description_; }
   Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const override;
+  Result<std::uint64_t> checksum() const override;
 
  private:
   ImageBtfSource() = default;

@@ -85,16 +85,13 @@ class ZipCollection : public FileCollection {
   const std::vector<std::string>& names() const override { return names_; }
 
   Result<std::vector<std::uint8_t>> read(int index) const override {
-    const std::string where = path_.string() + ": " + names_[static_cast<std::size_t>(index)];
-    Zip& archive = archives_.local();
-    if (!archive) {
-      WEFT_TRY(archive, openArchive(path_, 0));
-    }
-    const zip_uint64_t entryIndex = entries_[static_cast<std::size_t>(index)];
-    WEFT_TRY(const std::size_t size, unpackedSize(archive.get(), entryIndex, where));
-    const ZipEntry entry(zip_fopen_index(archive.get(), entryIndex, 0));
-    if (!entry) return unreadable(zip_get_error(archive.get()), where);
-    std::vector<std::uint8_t> bytes(size);
+    const std::string where = whereOf(index);
+    WEFT_TRY(zip_t* const archive, archiveOfThread());
+    WEFT_TRY(const zip_stat_t stat, statOf(index));
+    WEFT_TRY_VOID(checkSize(stat, where));
+    const ZipEntry entry(zip_fopen_index(archive, entries_[static_cast<std::size_t>(index)], 0));
+    if (!entry) return unreadable(zip_get_error(archive), where);
+    std::vector<std::uint8_t> bytes(stat.size);
     std::uint8_t beyond = 0;
     // Reading past the end makes libzip compare the checksum.
     if (zip_fread(entry.get(), bytes.data(), bytes.size()) != static_cast<zip_int64_t>(bytes.size()) ||
@@ -103,19 +100,43 @@ class ZipCollection : public FileCollection {
     return bytes;
   }
 
+  // Zips know the checksums of their files.
+  Result<std::uint64_t> checksum(int index) const override {
+    WEFT_TRY(const zip_stat_t stat, statOf(index));
+    return stat.size << 32 ^ stat.crc;
+  }
+
  private:
-  static Result<std::size_t> unpackedSize(zip_t* archive, zip_uint64_t entry, const std::string& where) {
-    constexpr zip_uint64_t kNeeded = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
-    zip_stat_t stat;
-    if (zip_stat_index(archive, entry, 0, &stat) != 0 || (stat.valid & kNeeded) != kNeeded)
-      return unreadable(zip_get_error(archive), where);
+  static Result<void> checkSize(const zip_stat_t& stat, const std::string& where) {
     if (stat.size > kLargestImageFile)
       return fail(fmt::format("the entry unpacks to {} bytes, more than the {} allowed", stat.size,
                               kLargestImageFile),
                   where);
     if (stat.size / kLargestRatio > stat.comp_size)
       return damaged(fmt::format("{} bytes are said to unpack to {}", stat.comp_size, stat.size), where);
-    return stat.size;
+    return {};
+  }
+
+  std::string whereOf(int index) const {
+    return path_.string() + ": " + names_[static_cast<std::size_t>(index)];
+  }
+
+  Result<zip_t*> archiveOfThread() const {
+    Zip& archive = archives_.local();
+    if (!archive) {
+      WEFT_TRY(archive, openArchive(path_, 0));
+    }
+    return archive.get();
+  }
+
+  Result<zip_stat_t> statOf(int index) const {
+    WEFT_TRY(zip_t* const archive, archiveOfThread());
+    zip_stat_t stat;
+    constexpr zip_uint64_t kWanted = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_CRC;
+    if (zip_stat_index(archive, entries_[static_cast<std::size_t>(index)], 0, &stat) != 0 ||
+        (stat.valid & kWanted) != kWanted)
+      return unreadable(zip_get_error(archive), whereOf(index));
+    return stat;
   }
 
   std::filesystem::path path_;

@@ -33,6 +33,9 @@ class AtomicFile {
   /// depends on the file may go once this has returned. Once, at the end.
   Result<void> commit();
 
+  /// Removes what programs of this host left in a folder when they were killed. create() does so for the
+  /// first file in one.
+  static void sweep(const std::filesystem::path& folder);
   /// For the end of an interrupted program: removes every uncommitted temporary and lets no file be created
   /// or committed afterwards. Not for signal handlers: it locks.
   static void removeAllPending();

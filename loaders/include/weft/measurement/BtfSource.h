@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -28,6 +29,8 @@ struct BtfDescription {
   std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   /// Of the samples of one row, all its pairs, in SampleRows.
   std::size_t rowBytes() const;
+  /// Of all but the name.
+  std::uint64_t checksum() const;
 };
 
 /// A measured or baked bidirectional texture function: how everything in Weft reads measurements.
@@ -43,6 +46,10 @@ class BtfSource {
   /// rows as memory allows (rowsWithin()); decoded images take 128 MiB besides. Rows that are read one after
   /// another into the same `out` share its memory.
   virtual Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const = 0;
+
+  /// Tells measurements apart by what was measured, directions and values, and not by what they are called.
+  /// Costs a pass over the measurement where a source knows nothing quicker. Fails where it cannot be read.
+  virtual Result<std::uint64_t> checksum() const;
 
   /// How many rows fit into `bytes` when read by readRows(); at least 1.
   int rowsWithin(std::size_t bytes) const;

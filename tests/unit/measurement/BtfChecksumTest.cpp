@@ -1,0 +1,85 @@
+// Measurements are told apart by what was measured, not by what they are called.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "MemoryBtf.h"
+#include "TestImages.h"
+#include "TestSupport.h"
+#include "weft/io/ImageFile.h"
+#include "weft/measurement/BtfWriter.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using test::MemoryBtf;
+using test::requireDone;
+using test::valueOf;
+
+MemoryBtf greyBtf(float grey) {
+  return MemoryBtf(2, 2, [=](int x, int, glm::vec3, glm::vec3 l) {
+    return glm::vec3(l.z * grey + 0.1f * static_cast<float>(x));
+  });
+}
+
+std::uint64_t checksumOf(const fs::path& path) {
+  return valueOf(valueOf(openBtf(path))->checksum());
+}
+
+void writeImage(const fs::path& file, int value) {
+  requireDone(writePng(file, test::imageOf(2, 2, [&](int, int, int) { return value; })));
+}
+
+TEST(BtfChecksum, OfAFolderIsThatOfItsImages) {
+  const fs::path folder = test::testFolder() / "cloth";
+  fs::create_directories(folder);
+  writeImage(folder / "tl000_pl000_tv000_pv000.png", 10);
+  writeImage(folder / "tl030_pl000_tv000_pv000.png", 20);
+  const std::uint64_t checksum = checksumOf(folder);
+  std::ofstream(folder / "readme.txt") << "no image";
+  fs::rename(folder, test::testFolder() / "renamed");
+  EXPECT_EQ(checksumOf(test::testFolder() / "renamed"), checksum);
+  writeImage(test::testFolder() / "renamed" / "tl030_pl000_tv000_pv000.png", 21);
+  EXPECT_NE(checksumOf(test::testFolder() / "renamed"), checksum);
+}
+
+TEST(BtfChecksum, SeesWhichImageIsOfWhichDirection) {
+  const fs::path one = test::testFolder() / "one", two = test::testFolder() / "two";
+  for (const fs::path& folder : {one, two}) fs::create_directories(folder);
+  writeImage(one / "tl000_pl000_tv000_pv000.png", 10);
+  writeImage(one / "tl030_pl000_tv000_pv000.png", 20);
+  writeImage(two / "tl000_pl000_tv000_pv000.png", 20);
+  writeImage(two / "tl030_pl000_tv000_pv000.png", 10);
+  EXPECT_NE(checksumOf(one), checksumOf(two));
+  fs::rename(two / "tl030_pl000_tv000_pv000.png", two / "tl031_pl000_tv000_pv000.png");
+  writeImage(two / "tl000_pl000_tv000_pv000.png", 10);
+  writeImage(two / "tl031_pl000_tv000_pv000.png", 20);
+  EXPECT_NE(checksumOf(one), checksumOf(two)) << "a light elsewhere";
+}
+
+TEST(BtfChecksum, OfAZipIsThatOfItsImages) {
+  const auto write = [](const char* name, float grey) {
+    const MemoryBtf btf = greyBtf(grey);
+    const fs::path zip = test::testFolder() / name;
+    requireDone(writeBtfZip(zip, btf.description(),
+                            [&](int view, std::span<float> out) { return btf.readView(view, out); }));
+    return zip;
+  };
+  const std::uint64_t checksum = checksumOf(write("a.zip", 0.5f));
+  EXPECT_EQ(checksumOf(write("b.zip", 0.5f)), checksum);
+  EXPECT_NE(checksumOf(write("a.zip", 0.6f)), checksum);
+}
+
+TEST(BtfChecksum, OfOtherSourcesIsThatOfTheirSamples) {
+  MemoryBtf btf = greyBtf(0.5f);
+  const std::uint64_t checksum = valueOf(btf.checksum());
+  btf.description().name = "renamed";
+  EXPECT_EQ(valueOf(btf.checksum()), checksum);
+  btf.description().lights[3].x += 0.01f;
+  EXPECT_NE(valueOf(btf.checksum()), checksum);
+  EXPECT_NE(valueOf(greyBtf(0.5001f).checksum()), checksum);
+}
+
+}  // namespace
+}  // namespace weft
