@@ -91,7 +91,8 @@ std::filesystem::path partsOf(const std::filesystem::path& output) {
   return parts += ".parts";
 }
 
-FitOptions fitOptions(const Arguments& a, const ModelType& type, const ProcessGroup& group) {
+FitOptions fitOptions(const Tool& tool, const Arguments& a, const ModelType& type,
+                      const ProcessGroup& group) {
   FitOptions options = a.fit;
   const std::string space = !a.space.empty() ? a.space : type.fitsStoredValues ? "stored" : "linear";
   const std::string cosine = !a.cosine.empty() ? a.cosine : space == "stored" ? "in" : "out";
@@ -103,23 +104,29 @@ FitOptions fitOptions(const Arguments& a, const ModelType& type, const ProcessGr
   if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
   options.partsFolder = partsOf(a.output);
   options.secondsBetweenSaves = group.size() > 1 ? 0.0 : 5.0;  // several exchange their rows this way
+  options.warn = [&tool](const std::string& message) { tool.warn(message); };
   return options;
 }
 
-// This process's share of the rows; with several processes the first one then has those of all.
+// This process's share of the rows in one pass after the other; with several processes the first one then has
+// those of all.
 Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const ProcessGroup& group,
                      const Progress& progress) {
-  if (!arguments.resume && group.rank() == 0) fieldFit.removeParts();
-  group.allSucceeded(true);  // before others write theirs
+  const Result<void> claimed = group.rank() == 0 ? fieldFit.claimParts() : Result<void>();
+  if (claimed && !arguments.resume && group.rank() == 0) fieldFit.removeParts();
+  if (!group.allSucceeded(claimed.has_value()))  // before others write theirs
+    return claimed ? fail("another process of the fit has failed") : claimed;
   const auto share = [&](int rank) { return fieldFit.height() * rank / group.size(); };
   const int first = share(group.rank());
-  const auto resumeAndFit = [&]() -> Result<void> {
-    if (arguments.resume) WEFT_TRY_VOID(fieldFit.resume());
-    return fieldFit.fitRows(first, share(group.rank() + 1) - first,
-                            group.rank() == 0 ? progress : Progress());
-  };
-  Result<void> own = resumeAndFit();
-  if (!group.allSucceeded(own.has_value()) && own) return fail("another process of the fit has failed");
+  Result<void> own = arguments.resume ? fieldFit.resume() : Result<void>();
+  for (;;) {
+    if (own)
+      own =
+          fieldFit.fitRows(first, share(group.rank() + 1) - first, group.rank() == 0 ? progress : Progress());
+    if (!group.allSucceeded(own.has_value()) && own) return fail("another process of the fit has failed");
+    if (!own || fieldFit.inLastPass()) break;
+    own = fieldFit.nextPass();
+  }
   if (!own || group.size() == 1 || group.rank() > 0) return own;
   return fieldFit.resume();
 }
@@ -130,7 +137,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
   WEFT_TRY(const ModelType type, arguments.fit.models.find(arguments.fit.model.name));
-  const FitOptions options = fitOptions(arguments, type, group);
+  const FitOptions options = fitOptions(tool, arguments, type, group);
   const auto model = options.models.create(options.model);
   if (!model) return tool.badUsage(model.error().message());
   if (arguments.cosine == "out" && (*model)->containsCosine())

@@ -8,6 +8,8 @@
 #include "ClothZip.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
+#include "weft/core/FileLock.h"
+#include "weft/fitter/FieldFit.h"
 
 namespace weft {
 namespace {
@@ -124,6 +126,55 @@ TEST(FitCommand, AFitThatWasKilledGoesOn) {
   expectRefused(runProgram("weft-fit", {zip, "-o", resumed, "--resume"}), 2, "000000-000000.rows");
   EXPECT_EQ(runProgram("weft-fit", {zip, "-o", resumed}).exitCode, 0) << "starts over";
   EXPECT_FALSE(fs::exists(parts));
+}
+
+// The measurement is another one under the same name.
+TEST(FitCommand, ResumesNoOtherMeasurement) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  const fs::path field = folder / "cloth.rf.exr";
+  const auto source = test::valueOf(openBtf(zip));
+  FitOptions options;
+  options.partsFolder = field.string() + ".parts";
+  options.secondsBetweenSaves = 0.0;
+  test::requireDone(test::valueOf(FieldFit::create(*source, options)).fitRows(0, 2, {}));
+  EXPECT_EQ(runProgram("weft-fit", {zip, "-o", field, "--resume"}).exitCode, 0);
+
+  test::requireDone(test::valueOf(FieldFit::create(*source, options)).fitRows(0, 2, {}));
+  clothZip(folder, 0.5f);
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--resume"}), 2, "another fit");
+}
+
+TEST(FitCommand, OfTwoFitsWithOneOutputTheSecondSaysSo) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  const fs::path field = folder / "cloth.rf.exr";
+  const fs::path parts = field.string() + ".parts";
+  fs::create_directories(parts);
+  std::ofstream(parts / "0-000000-000000.rows") << "of the first";
+  {
+    const auto first = test::valueOf(FileLock::tryAcquire(parts / "lock"));
+    ASSERT_TRUE(first);
+    expectRefused(runProgram("weft-fit", {zip, "-o", field}), 2, "another fit with this output is running");
+    EXPECT_FALSE(fs::exists(field));
+    EXPECT_TRUE(fs::exists(parts / "0-000000-000000.rows"));
+  }
+  EXPECT_EQ(runProgram("weft-fit", {zip, "-o", field}).exitCode, 0);
+  EXPECT_FALSE(fs::exists(parts));
+}
+
+TEST(FitCommand, LeavesWhatItFindsInItsPartsFolder) {
+  const fs::path folder = test::testFolder();
+  const fs::path zip = clothZip(folder);
+  const fs::path field = folder / "cloth.rf.exr";
+  const fs::path parts = field.string() + ".parts";
+  std::ofstream(parts) << "mine";
+  expectRefused(runProgram("weft-fit", {zip, "-o", field}), 2, parts.string());
+  EXPECT_EQ(contentsOf(parts), "mine");
+  fs::remove(parts);
+  fs::create_directories(parts / "mine");
+  EXPECT_EQ(runProgram("weft-fit", {zip, "-o", field}).exitCode, 0);
+  EXPECT_TRUE(fs::exists(parts / "mine"));
 }
 
 TEST(FitCommand, ReportsHeldOutPairs) {

@@ -2,25 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "weft/core/BatchEncoding.h"
 
 namespace weft {
-namespace {
-
-// Directions of a file have gone through text, so they may differ in the last bit.
-std::vector<bool> amongOthers(const std::vector<glm::vec3>& directions,
-                              const std::vector<glm::vec3>& others) {
-  std::vector<bool> result;
-  for (glm::vec3 direction : directions)
-    result.push_back(std::ranges::any_of(
-        others, [&](glm::vec3 other) { return glm::distance(direction, other) < 1e-4f; }));
-  return result;
-}
-
-}  // namespace
 
 FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors::*part) {
   std::vector<TexelErrors> errors;
@@ -28,29 +14,17 @@ FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors
   return summarize(errors);
 }
 
-ErrorMeter::ErrorMeter(FieldFormula formula, const ReflectanceFieldDescription& description,
-                       const BtfDescription& measured)
+ErrorMeter::ErrorMeter(FieldFormula formula, FittedPairs pairs, const BtfDescription& measured)
     : formula_(std::move(formula)),
+      pairs_(std::move(pairs)),
       views_(measured.views),
       lights_(measured.lights),
       encoding_(measured.encoding),
-      viewIsFitted_(amongOthers(measured.views, description.views)),
-      lightIsFitted_(amongOthers(measured.lights, description.lights)),
       modelledLights_(formula_.modelledLights(measured.lights)),
       layersAreLights_(formula_.model().layerDirections() == LayerDirections::Lights) {
   for (glm::vec3 direction : layersAreLights_ ? lights_ : views_)
     layers_.push_back(formula_.layersAround(direction, direction));
-  for (std::size_t light = 0; light < lights_.size(); ++light)
-    if (lights_[light].z <= 0.0f) lightIsFitted_[light] = false;
   runs_ = findRuns();
-  holdsOut_ = std::ranges::find(runs_, false, &Run::isFitted) != runs_.end();
-}
-
-bool ErrorMeter::fitsAllPairs() const {
-  const auto all = [](const std::vector<bool>& flags) {
-    return std::ranges::find(flags, false) == flags.end();
-  };
-  return all(viewIsFitted_) && all(lightIsFitted_);
 }
 
 // The layers' numbers and weights around a view, or light.
@@ -100,7 +74,7 @@ std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
   for (std::size_t view = 0; view < views_.size(); ++view)
     for (std::size_t light = 0; light < lights_.size(); ++light) {
       if (lights_[light].z <= 0.0f) continue;
-      const bool isFitted = viewIsFitted_[view] && lightIsFitted_[light];
+      const bool isFitted = pairs_.views()[view] && pairs_.lights()[light];
       const bool continues = !runs.empty() && runs.back().view == view &&
                              runs.back().firstLight + runs.back().count == light &&
                              runs.back().isFitted == isFitted;
@@ -110,8 +84,16 @@ std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
   return runs;
 }
 
-SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const float> layers,
-                                std::span<const glm::vec3> linear, std::span<const glm::vec3> stored) const {
+void ErrorMeter::measure(const RunParameters& parameters, TexelRun& texels,
+                         std::span<SplitErrors> errors) const {
+  WEFT_EXPECT(parameters.size() == texels.size() && std::ssize(errors) == texels.size(), "all of one run");
+  for (int i = 0; i < texels.size(); ++i)
+    errors[static_cast<std::size_t>(i)] =
+        measureTexel(parameters.shared(i), parameters.layers(i), texels.measured(i));
+}
+
+SplitErrors ErrorMeter::measureTexel(std::span<const float> shared, std::span<const float> layers,
+                                     const TexelSamples& samples) const {
   const float grazingZ = std::cos(glm::radians(59.9f));
   const std::size_t lightCount = lights_.size();
   SplitErrors errors;
@@ -127,7 +109,8 @@ SplitErrors ErrorMeter::measure(std::span<const float> shared, std::span<const f
     }
     const std::size_t from = run.view * lightCount + run.firstLight;
     (run.isFitted ? errors.fitted : errors.heldOut)
-        .add({.linear = linear.subspan(from, run.count), .stored = stored.subspan(from, run.count)},
+        .add({.linear = std::span(samples.linear).subspan(from, run.count),
+              .stored = std::span(samples.stored).subspan(from, run.count)},
              {.linear = linearModel.subspan(run.firstLight, run.count),
               .stored = storedModel.subspan(run.firstLight, run.count)},
              views_[run.view].z < grazingZ);

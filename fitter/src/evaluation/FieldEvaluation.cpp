@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/Direction.h"
-#include "weft/evaluation/TexelSamples.h"
 
 namespace weft {
 namespace {
@@ -17,23 +16,30 @@ namespace {
 /// Pairs that show most of what there is to see: light along and across the view, high and low.
 struct ShownPair {
   std::size_t view, light;
+  std::size_t pair;  ///< index among all
 };
 
 std::vector<ShownPair> shownPairs(const BtfDescription& measured) {
   std::vector<ShownPair> pairs;
   for (const auto& [view, light] : {std::pair(directionFromDegrees(0, 0), directionFromDegrees(45, 180)),
                                     std::pair(directionFromDegrees(45, 0), directionFromDegrees(30, 90)),
-                                    std::pair(directionFromDegrees(75, 0), directionFromDegrees(60, 180))})
-    pairs.push_back({nearestDirection(measured.views, view), nearestDirection(measured.lights, light)});
+                                    std::pair(directionFromDegrees(75, 0), directionFromDegrees(60, 180))}) {
+    const std::size_t nearestView = nearestDirection(measured.views, view);
+    const std::size_t nearestLight = nearestDirection(measured.lights, light);
+    pairs.push_back({nearestView, nearestLight, nearestView * measured.lights.size() + nearestLight});
+  }
   return pairs;
 }
 
-/// The parameters of one texel as ErrorMeter wants them, `[layer][channel]`.
-std::vector<float> layersOf(const ReflectanceField& field, int x, int y) {
-  std::vector<float> numbers;
-  for (int layer = 0; layer < field.layers().layers(); ++layer)
-    std::ranges::copy(field.layers().texel(x, y, layer), std::back_inserter(numbers));
-  return numbers;
+RunParameters parametersOf(const ReflectanceField& field, const TexelRun& run) {
+  RunParameters parameters(field.formula(), run.size());
+  for (int i = 0; i < run.size(); ++i) {
+    std::ranges::copy(field.shared().texel(run.x() + i, run.y()), parameters.shared(i).begin());
+    auto next = parameters.layers(i).begin();
+    for (int layer = 0; layer < field.layers().layers(); ++layer)
+      next = std::ranges::copy(field.layers().texel(run.x() + i, run.y(), layer), next).out;
+  }
+  return parameters;
 }
 
 void put(FloatImage& image, int x, int y, glm::vec3 rgb) {
@@ -63,6 +69,20 @@ std::optional<std::string> otherMeasurement(const ReflectanceFieldDescription& f
   return text;
 }
 
+void compareRun(const ReflectanceField& field, const ErrorMeter& meter, TexelRun& run,
+                const std::vector<ShownPair>& shown, FieldEvaluation& evaluation) {
+  const std::size_t first = static_cast<std::size_t>(run.y()) * static_cast<std::size_t>(field.width()) +
+                            static_cast<std::size_t>(run.x());
+  meter.measure(parametersOf(field, run), run,
+                std::span(evaluation.texels).subspan(first, static_cast<std::size_t>(run.size())));
+  for (int x = run.x(); x < run.x() + run.size(); ++x)
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      PairPictures& pair = evaluation.pairs[k];
+      put(pair.measured, x, run.y(), run.measured(x - run.x()).linear[shown[k].pair]);
+      put(pair.model, x, run.y(), field.evaluate(x, run.y(), pair.light, pair.view));
+    }
+}
+
 }  // namespace
 
 Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSource& source,
@@ -74,7 +94,7 @@ Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSo
     return fail(fmt::format("the field has {} x {} texels and the measurement {} x {}", field.width(),
                             field.height(), crop.width, crop.height),
                 measured.name, "name the texels that were fitted: --crop");
-  const ErrorMeter meter(field.formula(), field.description(), measured);
+  const ErrorMeter meter(field.formula(), FittedPairs(field.description(), measured), measured);
   FieldEvaluation evaluation;
   evaluation.texels.resize(static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height));
   const std::vector<ShownPair> shown = shownPairs(measured);
@@ -88,23 +108,17 @@ Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSo
   for (int first = 0; first < crop.height; first += rowsAtOnce) {
     const int count = std::min(rowsAtOnce, crop.height - first);
     WEFT_TRY_VOID(source.readRows(crop.y + first, count, rows));
-    tbb::parallel_for(0, count * crop.width, [&](int i) {
-      const int x = i % crop.width;
-      const int y = first + i / crop.width;
-      const TexelSamples samples = texelSamples(rows, measured, y - first, crop.x + x);
-      evaluation.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
-                        static_cast<std::size_t>(x)] =
-          meter.measure(field.shared().texel(x, y), layersOf(field, x, y), samples.linear, samples.stored);
-      for (std::size_t k = 0; k < shown.size(); ++k) {
-        PairPictures& pair = evaluation.pairs[k];
-        put(pair.measured, x, y, samples.linear[shown[k].view * measured.lights.size() + shown[k].light]);
-        put(pair.model, x, y, field.evaluate(x, y, pair.light, pair.view));
-      }
+    tbb::parallel_for(0, count, [&](int i) {
+      const SampledRow row{rows, i, measured, meter.pairs(), crop.x, crop.width, first + i};
+      tbb::parallel_for(0, TexelRun::runsIn(crop.width), [&](int number) {
+        TexelRun run(row, number);
+        compareRun(field, meter, run, shown, evaluation);
+      });
     });
     if (progress) progress(static_cast<double>(first + count) / crop.height);
   }
   evaluation.errors = summarize(evaluation.texels, &SplitErrors::fitted);
-  if (meter.holdsOut()) evaluation.heldOut = summarize(evaluation.texels, &SplitErrors::heldOut);
+  if (meter.pairs().holdOut()) evaluation.heldOut = summarize(evaluation.texels, &SplitErrors::heldOut);
   evaluation.warning = otherMeasurement(field.description(), measured, evaluation.errors);
   return evaluation;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +9,9 @@
 #include <mutex>
 
 #include "FittedRows.h"
-#include "TexelJob.h"
+#include "GatheredRows.h"
+#include "RowSaver.h"
+#include "weft/core/Contract.h"
 #include "weft/evaluation/HoldOut.h"
 
 namespace weft {
@@ -48,24 +49,35 @@ ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const 
           {}};
 }
 
-// Everything that decides the numbers of a fit, for people to compare.
-std::string fingerprintOf(const BtfDescription& measured, const FitOptions& options, const Crop& crop,
-                          const ModelDescription& model) {
-  std::string fingerprint = "weft " + model.name;
+// Everything that decides the numbers of a fit, for people to compare. What the measurement is called does
+// not.
+Result<std::string> fingerprintOf(const BtfSource& source, const FitOptions& options, const Crop& crop,
+                                  const ModelDescription& model) {
+  if (options.partsFolder.empty()) return std::string();
+  const BtfDescription& measured = source.description();
+  WEFT_TRY(const std::uint64_t checksum, source.checksum());
+  std::string fingerprint = fmt::format("weft {} {}", WEFT_VERSION, model.name);
   for (const auto& [name, value] : model.options) fingerprint += fmt::format(" ({} {})", name, textOf(value));
   return fingerprint +
-         fmt::format(" of {} {}x{}x{}x{}, crop {} {} {} {}, cosine {}, space {}, hold out {} {}, {}",
-                     measured.name, measured.width, measured.height, measured.views.size(),
-                     measured.lights.size(), crop.x, crop.y, crop.width, crop.height,
-                     options.cosineInModel ? "in" : "out",
+         fmt::format(" of {}x{}x{}x{} with checksum {:016x}, crop {} {} {} {}, cosine {}, space {}, hold "
+                     "out {} {}, {}",
+                     measured.width, measured.height, measured.views.size(), measured.lights.size(), checksum,
+                     crop.x, crop.y, crop.width, crop.height, options.cosineInModel ? "in" : "out",
                      options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights,
                      options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
 }
 
-// Calls back one thread at a time, with what is done of all rows.
+Result<void> checkComplete(const PassRows& rows, int height) {
+  const int missing = rows.firstMissing();
+  if (missing < height) return fail(fmt::format("row {} has not been fitted", missing));
+  return {};
+}
+
+// Calls back one thread at a time, with what is done of all rows of all passes.
 class RowCounter {
  public:
-  RowCounter(int total, const Progress& progress) : total_(total), progress_(progress) {}
+  RowCounter(int done, int total, const Progress& progress)
+      : done_(done), total_(total), progress_(progress) {}
 
   void add() {
     const std::scoped_lock lock(mutex_);
@@ -74,8 +86,8 @@ class RowCounter {
   }
 
  private:
+  int done_;
   int total_;
-  int done_ = 0;
   const Progress& progress_;
   std::mutex mutex_;
 };
@@ -97,41 +109,66 @@ struct FieldFit::Data {
   FitOptions options;
   Crop crop;
   std::shared_ptr<const ReflectanceModel> model;
-  std::unique_ptr<TexelFitter> fitter;
+  std::unique_ptr<FieldFitter> fitter;
   ReflectanceFieldDescription description;
-  ErrorMeter meter;
-  TexelJob job;
+  FieldFormula formula;
+  FittedPairs pairs;
+  PartsFolder folder;
+  std::vector<std::unique_ptr<GatheredRows>> gathered;  ///< of each gathering pass
   FittedRows rows;
+  std::optional<ErrorMeter> meter;  ///< in the last pass
+  std::size_t pass = 0;
   double secondsReading = 0.0;
   double secondsFitting = 0.0;
-  Clock::time_point lastSave = Clock::now();
 
-  Data(const BtfSource& source_, const FitOptions& options_, const Crop& crop_, const FieldFormula& formula,
-       std::shared_ptr<const ReflectanceModel> model_, std::unique_ptr<TexelFitter> fitter_,
-       ReflectanceFieldDescription description_)
-      : source(source_),
-        options(options_),
-        crop(crop_),
-        model(std::move(model_)),
-        fitter(std::move(fitter_)),
-        description(std::move(description_)),
-        meter(formula, description, source.description()),
-        job(source.description(), options, meter, *fitter, *model),
-        rows(crop.width, crop.height, formula, options.partsFolder,
-             fingerprintOf(source.description(), options, crop, model->description())) {}
+  Data(const BtfSource& source_, const FitOptions& options_, const Crop& crop_, const FieldFormula& formula_,
+       std::shared_ptr<const ReflectanceModel> model_, std::unique_ptr<FieldFitter> fitter_,
+       ReflectanceFieldDescription description_, std::string fingerprint);
 
-  std::vector<RowRange> blocksToFit(int firstRow, int count) const;
-  Result<void> fitBlock(const SampleRows& samples, RowRange block, RowCounter& counter);
-  void fitPart(const SampleRows& samples, RowRange block, RowRange part, RowCounter& counter);
+  bool inLastPass() const { return pass == gathered.size(); }
+  PassRows& passRows() { return inLastPass() ? static_cast<PassRows&>(rows) : *gathered[pass]; }
+  Result<void> beginPass();
+  std::vector<RowRange> blocksToDo(int firstRow, int count);
+  Result<void> doBlocks(const std::vector<RowRange>& blocks, RowSaver& saver, RowCounter& counter);
+  void doBlock(const SampleRows& samples, RowRange block, RowSaver& saver, RowCounter& counter);
+  void gatherRow(const SampledRow& row);
+  void fitRow(const SampledRow& row);
 };
 
+FieldFit::Data::Data(const BtfSource& source_, const FitOptions& options_, const Crop& crop_,
+                     const FieldFormula& formula_, std::shared_ptr<const ReflectanceModel> model_,
+                     std::unique_ptr<FieldFitter> fitter_, ReflectanceFieldDescription description_,
+                     std::string fingerprint)
+    : source(source_),
+      options(options_),
+      crop(crop_),
+      model(std::move(model_)),
+      fitter(std::move(fitter_)),
+      description(std::move(description_)),
+      formula(formula_),
+      pairs(description, source.description()),
+      folder(options.partsFolder, std::move(fingerprint)),
+      rows(folder, fitter->gatheringPasses(), crop.width, crop.height, formula) {
+  for (int i = 0; i < fitter->gatheringPasses(); ++i)
+    gathered.push_back(std::make_unique<GatheredRows>(folder, i, crop.height));
+}
+
+Result<void> FieldFit::Data::beginPass() {
+  if (!inLastPass()) return {};
+  const auto tables = std::make_shared<const FieldTables>(fitter->tables());
+  WEFT_TRY(const auto bound, boundModel(model, tables));
+  WEFT_TRY(const FieldFormula complete, FieldFormula::create(bound, description));
+  meter.emplace(complete, pairs, source.description());
+  return {};
+}
+
 // The rows that are not done, in runs that fit into memory; where there are several, two at once.
-std::vector<RowRange> FieldFit::Data::blocksToFit(int firstRow, int count) const {
+std::vector<RowRange> FieldFit::Data::blocksToDo(int firstRow, int count) {
   const int atOnce =
       source.rowsWithin(options.memory) >= count ? count : source.rowsWithin(options.memory / 2);
   std::vector<RowRange> blocks;
   for (int row = firstRow; row < firstRow + count; ++row) {
-    if (rows.isDone(row)) continue;
+    if (passRows().isDone(row)) continue;
     const bool continues = !blocks.empty() && blocks.back().first + blocks.back().count == row;
     if (continues && blocks.back().count < atOnce)
       ++blocks.back().count;
@@ -141,35 +178,54 @@ std::vector<RowRange> FieldFit::Data::blocksToFit(int firstRow, int count) const
   return blocks;
 }
 
-Result<void> FieldFit::Data::fitBlock(const SampleRows& samples, RowRange block, RowCounter& counter) {
-  constexpr int kParts = 32;  // and what a stop loses at least
-  const int partRows = (crop.height + kParts - 1) / kParts;
-  tbb::task_group saving;
-  std::mutex mutex;
-  Result<void> saved;
-  for (int first = block.first; first < block.first + block.count; first += partRows) {
-    const RowRange part{first, std::min(partRows, block.first + block.count - first)};
-    fitPart(samples, block, part, counter);
-    rows.setDone(part.first, part.count);
-    if (secondsSince(lastSave) < options.secondsBetweenSaves) continue;
-    lastSave = Clock::now();
-    for (const RowRange unsaved : rows.takeUnsaved())
-      saving.run([&, unsaved] {
-        Result<void> result = rows.save(unsaved);
-        const std::scoped_lock lock(mutex);
-        if (!result) saved = std::move(result);
-      });
+Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSaver& saver,
+                                      RowCounter& counter) {
+  std::array<SampleRows, 2> samples;
+  const auto readInto = [&](SampleRows& to, RowRange block) {
+    return std::async(std::launch::async,
+                      [&, block] { return source.readRows(crop.y + block.first, block.count, to); });
+  };
+  std::future<Result<void>> reading;
+  if (!blocks.empty()) reading = readInto(samples[0], blocks[0]);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto startOfReading = Clock::now();
+    WEFT_TRY_VOID(reading.get());
+    secondsReading += secondsSince(startOfReading);
+    if (i + 1 < blocks.size()) reading = readInto(samples[(i + 1) % 2], blocks[i + 1]);
+    const auto startOfFitting = Clock::now();
+    doBlock(samples[i % 2], blocks[i], saver, counter);
+    secondsFitting += secondsSince(startOfFitting);
   }
-  saving.wait();
-  return saved;
+  return {};
 }
 
-void FieldFit::Data::fitPart(const SampleRows& samples, RowRange block, RowRange part, RowCounter& counter) {
-  tbb::parallel_for(0, part.count * crop.width, [&](int i) {
-    const int x = i % crop.width;
-    const int y = part.first + i / crop.width;
-    job.fit(samples, y - block.first, crop.x + x, rows, x, y);
-    if (x == crop.width - 1) counter.add();
+void FieldFit::Data::doBlock(const SampleRows& samples, RowRange block, RowSaver& saver,
+                             RowCounter& counter) {
+  tbb::parallel_for(0, block.count, [&](int i) {
+    const SampledRow row{samples, i, source.description(), pairs, crop.x, crop.width, block.first + i};
+    inLastPass() ? fitRow(row) : gatherRow(row);
+    passRows().setDone({row.y, 1});
+    saver.wake();
+    counter.add();
+  });
+}
+
+// Run after run, so that sums of floats do not depend on threads.
+void FieldFit::Data::gatherRow(const SampledRow& row) {
+  for (int number = 0; number < TexelRun::runsIn(crop.width); ++number) {
+    TexelRun run(row, number);
+    fitter->gather(static_cast<int>(pass), run, gathered[pass]->of(row.y));
+  }
+}
+
+void FieldFit::Data::fitRow(const SampledRow& row) {
+  tbb::parallel_for(0, TexelRun::runsIn(crop.width), [&](int number) {
+    TexelRun run(row, number);
+    RunParameters parameters(formula, run.size());
+    fitter->fit(run, parameters);
+    if (options.precision == Precision::Half) parameters.roundToHalf();
+    rows.put(run.x(), run.y(), parameters);
+    meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
   });
 }
 
@@ -184,75 +240,90 @@ Result<FieldFit> FieldFit::create(const BtfSource& source, const FitOptions& opt
   WEFT_TRY(std::shared_ptr<const ReflectanceModel> model, options.models.create(options.model));
   ReflectanceFieldDescription description = descriptionOf(measured, options, *model);
   WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
-  WEFT_TRY(std::unique_ptr<TexelFitter> fitter,
+  WEFT_TRY(std::unique_ptr<FieldFitter> fitter,
            options.fitters.create({description.views, description.lights, description.hasCosine,
-                                   options.space == FitSpace::Linear, model}));
-  return FieldFit(std::make_unique<Data>(source, options, crop, formula, std::move(model), std::move(fitter),
-                                         std::move(description)));
+                                   options.space == FitSpace::Linear, model, measured.encoding}));
+  WEFT_TRY(std::string fingerprint, fingerprintOf(source, options, crop, model->description()));
+  auto data = std::make_unique<Data>(source, options, crop, formula, std::move(model), std::move(fitter),
+                                     std::move(description), std::move(fingerprint));
+  WEFT_TRY_VOID(data->beginPass());
+  return FieldFit(std::move(data));
 }
 
 int FieldFit::height() const {
   return data_->crop.height;
 }
 
+Result<void> FieldFit::claimParts() {
+  WEFT_EXPECT(data_->folder.keepsRows(), "there is a parts folder");
+  return data_->folder.claim();
+}
+
 Result<void> FieldFit::resume() {
+  for (const auto& pass : data_->gathered) WEFT_TRY_VOID(pass->load());
   return data_->rows.load();
 }
 
 Result<void> FieldFit::fitRows(int firstRow, int count, const Progress& progress) {
   Data& data = *data_;
-  RowCounter counter(count, progress);
+  const int passes = static_cast<int>(data.gathered.size()) + 1;
+  RowCounter counter(static_cast<int>(data.pass) * count, passes * count, progress);
   for (int row = firstRow; row < firstRow + count; ++row)
-    if (data.rows.isDone(row)) counter.add();
+    if (data.passRows().isDone(row)) counter.add();
+  const std::vector<RowRange> blocks = data.blocksToDo(firstRow, count);
+  RowSaver saver(data.passRows(), data.options.secondsBetweenSaves, data.options.warn);
+  const Result<void> done = data.doBlocks(blocks, saver, counter);
+  const Result<void> saved = saver.finish();
+  return done ? saved : done;
+}
 
-  std::array<SampleRows, 2> samples;
-  const auto readInto = [&](SampleRows& to, RowRange block) {
-    return std::async(std::launch::async, [&, block] {
-      return data.source.readRows(data.crop.y + block.first, block.count, to);
-    });
-  };
-  const std::vector<RowRange> blocks = data.blocksToFit(firstRow, count);
-  std::future<Result<void>> reading;
-  if (!blocks.empty()) reading = readInto(samples[0], blocks[0]);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto startOfReading = Clock::now();
-    WEFT_TRY_VOID(reading.get());
-    data.secondsReading += secondsSince(startOfReading);
-    if (i + 1 < blocks.size()) reading = readInto(samples[(i + 1) % 2], blocks[i + 1]);
-    const auto startOfFitting = Clock::now();
-    WEFT_TRY_VOID(data.fitBlock(samples[i % 2], blocks[i], counter));
-    data.secondsFitting += secondsSince(startOfFitting);
-  }
-  return {};
+bool FieldFit::inLastPass() const {
+  return data_->inLastPass();
+}
+
+Result<void> FieldFit::nextPass() {
+  Data& data = *data_;
+  WEFT_EXPECT(!data.inLastPass(), "there is a pass to come");
+  GatheredRows& gathered = *data.gathered[data.pass];
+  if (gathered.firstMissing() < data.crop.height) WEFT_TRY_VOID(gathered.load());
+  WEFT_TRY_VOID(checkComplete(gathered, data.crop.height));
+  WEFT_TRY_VOID(data.fitter->endPass(static_cast<int>(data.pass), gathered.all()));
+  ++data.pass;
+  return data.beginPass();
 }
 
 Result<FitResult> FieldFit::finish() {
   Data& data = *data_;
-  for (int row = 0; row < data.crop.height; ++row)
-    if (!data.rows.isDone(row)) return fail(fmt::format("row {} has not been fitted", row));
+  WEFT_EXPECT(data.inLastPass(), "all passes are done");
+  WEFT_TRY_VOID(checkComplete(data.rows, data.crop.height));
   if (data.options.precision == Precision::Half) {
     data.rows.shared.setPrecision(Precision::Half);
     data.rows.layers.setPrecision(Precision::Half);
   }
   const FitErrors errors = summarize(data.rows.errors, &SplitErrors::fitted);
   std::optional<FitErrors> heldOut;
-  if (data.meter.holdsOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
+  if (data.pairs.holdOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
   data.description.fitReport = toJson(errors, heldOut);
-  WEFT_TRY(ReflectanceField field,
-           ReflectanceField::create(data.model, std::move(data.description), std::move(data.rows.shared),
-                                    std::move(data.rows.layers)));
-  return FitResult{std::move(field),   errors, heldOut, std::move(data.rows.errors), data.secondsReading,
-                   data.secondsFitting};
+  std::vector<FieldLevel> levels(1);
+  levels[0] = {std::move(data.rows.shared), std::move(data.rows.layers)};
+  WEFT_TRY(ReflectanceField field, ReflectanceField::create(data.model, std::move(data.description),
+                                                            std::move(levels), data.fitter->tables()));
+  return FitResult{std::move(field),    errors, heldOut, std::move(data.rows.errors),
+                   data.secondsReading, data.secondsFitting};
 }
 
 void FieldFit::removeParts() const {
-  data_->rows.remove();
+  data_->folder.remove();
 }
 
 Result<FitResult> fitReflectanceField(const BtfSource& source, const FitOptions& options,
                                       const Progress& progress) {
   WEFT_TRY(FieldFit fit, FieldFit::create(source, options));
   WEFT_TRY_VOID(fit.fitRows(0, fit.height(), progress));
+  while (!fit.inLastPass()) {
+    WEFT_TRY_VOID(fit.nextPass());
+    WEFT_TRY_VOID(fit.fitRows(0, fit.height(), progress));
+  }
   return fit.finish();
 }
 

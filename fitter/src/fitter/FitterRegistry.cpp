@@ -1,10 +1,12 @@
+#include "weft/fitter/FitterRegistry.h"
+
 #include <fmt/format.h>
 
+#include "TexelFieldFitter.h"
 #include "models/BumpFitter.h"
 #include "models/LafFitter.h"
 #include "models/RfnlFitter.h"
 #include "models/RfpFitter.h"
-#include "weft/fitter/TexelFitter.h"
 
 namespace weft {
 
@@ -25,7 +27,21 @@ void FitterRegistry::add(std::string model, Factory factory) {
   factories_.emplace_back(std::move(model), factory);
 }
 
-Result<std::unique_ptr<TexelFitter>> FitterRegistry::create(const FitProblem& problem) const {
+void FitterRegistry::add(std::string model, TexelFactory factory) {
+  factories_.emplace_back(std::move(model),
+                          [factory](const FitProblem& problem) -> Result<std::unique_ptr<FieldFitter>> {
+                            WEFT_TRY(std::unique_ptr<TexelFitter> fitter, factory(problem));
+                            return std::make_unique<TexelFieldFitter>(problem, std::move(fitter));
+                          });
+}
+
+std::vector<std::string> FitterRegistry::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, factory] : factories_) names.push_back(name);
+  return names;
+}
+
+Result<std::unique_ptr<FieldFitter>> FitterRegistry::create(const FitProblem& problem) const {
   const std::string name = problem.model->description().name;
   for (const auto& [model, factory] : factories_)
     if (model == name) return factory(problem);

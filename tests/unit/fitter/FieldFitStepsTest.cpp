@@ -1,9 +1,13 @@
 // Fits that are stopped, shared, or tested on what they have not seen.
 #include <gmock/gmock.h>
 
+#include <tbb/global_control.h>
+
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "MemoryBtf.h"
 #include "TestSupport.h"
@@ -87,8 +91,113 @@ TEST(FieldFitSteps, RowsOfAnotherFitAreRefused) {
   EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
 }
 
-TEST(FieldFitSteps, DamagedRowsAreRefused) {
+// Another measurement of the same shape and name, and the same one under another name.
+TEST(FieldFitSteps, MeasurementsAreToldApartByWhatWasMeasured) {
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  MemoryBtf source = unevenBtf();
+  FieldFit fit = valueOf(FieldFit::create(source, options));
+  ASSERT_TRUE(fit.fitRows(0, 2, {}));
+  source.description().name = "renamed";
+  EXPECT_TRUE(valueOf(FieldFit::create(source, options)).resume());
+  source.description().views[7] = directionFromDegrees(31, 0.01);
+  EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
+  const MemoryBtf other(3, kHeight, [](int x, int y, glm::vec3, glm::vec3 l) {
+    return glm::vec3(x == 2 && y == kHeight - 1 ? 0.5f : 0.4f) * l.z;
+  });
+  EXPECT_THAT(failureText(valueOf(FieldFit::create(other, options)).resume()), HasSubstr("another fit"));
+}
+
+int rowFilesIn(const fs::path& folder) {
+  int files = 0;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".rows") ++files;
+  return files;
+}
+
+// The only thread waits in the middle of the fit for the rows before it.
+TEST(FieldFitSteps, OneThreadKeepsItsRowsToo) {
   const MemoryBtf source = unevenBtf();
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  FieldFit fit = valueOf(FieldFit::create(source, options));
+  bool kept = false;
+  ASSERT_TRUE(fit.fitRows(0, kHeight, [&](double fraction) {
+    if (fraction < 0.5 || fraction == 1.0 || kept) return;
+    for (int i = 0; i < 1000 && rowFilesIn(options.partsFolder) == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kept = rowFilesIn(options.partsFolder) > 0;
+  }));
+  EXPECT_TRUE(kept);
+}
+
+// A file is where the folder is to be, until the middle of the fit.
+TEST(FieldFitSteps, RowsThatCannotBeKeptAreAWarningAndAreTriedAgain) {
+  const MemoryBtf source = unevenBtf();
+  FitOptions options = optionsWith(test::testFolder() / "parts");
+  std::ofstream(options.partsFolder) << "in the way";
+  options.secondsBetweenSaves = 1e-3;
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  FieldFit fit = valueOf(FieldFit::create(source, options));
+  ASSERT_TRUE(fit.fitRows(0, kHeight, [&](double fraction) {
+    if (fraction <= 0.5)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // several saves
+    else if (fs::is_regular_file(options.partsFolder))
+      fs::remove(options.partsFolder);
+    else
+      for (int i = 0; i < 1000 && rowFilesIn(options.partsFolder) == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr(options.partsFolder.string()));
+  EXPECT_GT(rowFilesIn(options.partsFolder), 0);
+  expectSameFields(valueOf(fit.finish()), valueOf(fitReflectanceField(source, optionsWith({}))));
+}
+
+// Processes that share a fit need each other's rows.
+TEST(FieldFitSteps, RowsThatOthersWaitForMustBeKept) {
+  const MemoryBtf source = unevenBtf();
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  std::ofstream(options.partsFolder) << "in the way";
+  EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).fitRows(0, 2, {})),
+              HasSubstr(options.partsFolder.string()));
+}
+
+TEST(FieldFitSteps, APartsFolderHasOneOwnerWhoRemovesItsOwnFilesAlone) {
+  const MemoryBtf source = unevenBtf();
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  {
+    FieldFit fit = valueOf(FieldFit::create(source, options));
+    ASSERT_TRUE(fit.claimParts());
+    FieldFit second = valueOf(FieldFit::create(source, options));
+    EXPECT_THAT(failureText(second.claimParts()), HasSubstr("another fit"));
+    ASSERT_TRUE(fit.fitRows(0, 4, {}));
+  }
+  EXPECT_GT(rowFilesIn(options.partsFolder), 0) << "for a resume";
+  FieldFit fit = valueOf(FieldFit::create(source, options));
+  ASSERT_TRUE(fit.claimParts()) << "its owner is gone";
+  for (const char* name : {"notes.txt", "mine.rows", "0-000001.rows"})
+    std::ofstream(options.partsFolder / name) << "mine";
+  fit.removeParts();
+  EXPECT_EQ(rowFilesIn(options.partsFolder), 2) << "those of other names";
+  EXPECT_TRUE(fs::exists(options.partsFolder / "notes.txt"));
+}
+
+TEST(FieldFitSteps, AnEmptyPartsFolderGoesWithItsOwner) {
+  const MemoryBtf source = unevenBtf();
+  const FitOptions options = optionsWith(test::testFolder() / "parts");
+  {
+    FieldFit fit = valueOf(FieldFit::create(source, options));
+    ASSERT_TRUE(fit.claimParts());
+    EXPECT_TRUE(fs::exists(options.partsFolder));
+  }
+  EXPECT_FALSE(fs::exists(options.partsFolder));
+}
+
+TEST(FieldFitSteps, DamagedRowsAreRefused) {
+  MemoryBtf source = unevenBtf();
+  source.description().views.resize(7);  // each create() looks at all that was measured
   const FitOptions options = optionsWith(test::testFolder() / "parts");
   {
     FieldFit fit = valueOf(FieldFit::create(source, options));

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "weft/core/Progress.h"
 #include "weft/core/Result.h"
 #include "weft/evaluation/ErrorMeter.h"
 #include "weft/evaluation/FitErrors.h"
-#include "weft/fitter/TexelFitter.h"
+#include "weft/fitter/FitterRegistry.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/measurement/Crop.h"
 #include "weft/reflectance/ModelRegistry.h"
@@ -39,17 +42,21 @@ struct FitOptions {
   std::size_t memory = std::size_t{4}
                        << 30;  ///< bytes for samples; two blocks of rows share it where one does not suffice
   std::filesystem::path partsFolder;  ///< where finished rows are kept; empty: nowhere
-  double secondsBetweenSaves = 0.0;   ///< of finished rows; what a stop may cost. 0: they are saved at once
+  /// Between saves of finished rows: what a stop may cost. 0: they are saved at once, and all are when
+  /// fitRows() returns.
+  double secondsBetweenSaves = 0.0;
+  /// Hears of what goes wrong without ending the fit, as rows that cannot be saved; from any thread.
+  std::function<void(const std::string&)> warn;
 
   Result<void> validate() const;
 };
 
 struct FitResult {
   ReflectanceField field;
-  FitErrors errors;                  ///< of the field as stored, over all fitted pairs
-  std::optional<FitErrors> heldOut;  ///< over the others, if any were held out
-  std::vector<SplitErrors> texels;   ///< row by row
-  double secondsReading = 0.0;       ///< waiting for samples
+  FitErrors errors;                          ///< of the field as stored, over all fitted pairs
+  std::optional<FitErrors> heldOut;          ///< over the others, if any were held out
+  std::vector<SplitErrors> texels;           ///< row by row
+  double secondsReading = 0.0;               ///< waiting for samples
   double secondsFitting = 0.0;
 };
 
@@ -59,23 +66,38 @@ struct FitResult {
 ///     WEFT_TRY(FieldFit fit, FieldFit::create(source, options));
 ///     WEFT_TRY_VOID(fit.resume());                        // takes over rows in options.partsFolder
 ///     WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));    // or each process some
+///     while (!fit.inLastPass()) {                         // of models with tables
+///       WEFT_TRY_VOID(fit.nextPass());                    // when all processes are done with the rows
+///       WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));
+///     }
 ///     WEFT_TRY(FitResult result, fit.finish());
 class FieldFit {
  public:
-  /// Fails on options that do not suit the measurement, which must outlive the fit.
+  /// Fails on options that do not suit the measurement, which must outlive the fit. With a parts folder,
+  /// looks at all that was measured once (BtfSource::checksum()), so that rows of something else are not
+  /// taken over.
   static Result<FieldFit> create(const BtfSource& source, const FitOptions& options);
   FieldFit(FieldFit&&) noexcept;
   ~FieldFit();
 
   int height() const;
+  /// Keeps other fits away from the parts folder while this one lives. Fails where one has it. Of several
+  /// processes that share the fit, one claims it.
+  Result<void> claimParts();
   /// Takes over the finished rows in the parts folder. Fails on those of another fit.
   Result<void> resume();
-  /// Fits those of the rows that are not done: texels in parallel, while the next block of rows is read and
-  /// finished ones are written to the parts folder.
+  /// Does the present pass for those of the rows that are not done: texels in parallel, while the next block
+  /// of rows is read and finished ones are written to the parts folder. Progress is that of all passes.
   Result<void> fitRows(int firstRow, int count, const Progress& progress);
-  /// The field, once every row is done; once.
+  /// Whether the present pass fits texels; passes before it gather what these share (FieldFitter).
+  bool inLastPass() const;
+  /// Goes on to the next pass; rows of other processes are taken over from the parts folder. Fails where one
+  /// is missing.
+  Result<void> nextPass();
+  /// The field, once every row is done in the last pass; once.
   Result<FitResult> finish();
-  /// Removes the parts folder; for when the field has been written.
+  /// Removes the finished rows, and the parts folder where nothing else is in it; for when the field has been
+  /// written.
   void removeParts() const;
 
  private:
