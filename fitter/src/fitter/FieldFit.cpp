@@ -59,12 +59,13 @@ Result<std::string> fingerprintOf(const BtfSource& source, const FitOptions& opt
   std::string fingerprint = fmt::format("weft {} {}", WEFT_VERSION, model.name);
   for (const auto& [name, value] : model.options) fingerprint += fmt::format(" ({} {})", name, textOf(value));
   return fingerprint +
-         fmt::format(" of {}x{}x{}x{} with checksum {:016x}, crop {} {} {} {}, cosine {}, space {}, hold "
-                     "out {} {}, {}",
-                     measured.width, measured.height, measured.views.size(), measured.lights.size(), checksum,
-                     crop.x, crop.y, crop.width, crop.height, options.cosineInModel ? "in" : "out",
-                     options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights,
-                     options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
+         fmt::format(
+             " of {}x{}x{}x{} with checksum {:016x}, crop {} {} {} {}, cosine {}, space {}, hold "
+             "out {} {}, {}",
+             measured.width, measured.height, measured.views.size(), measured.lights.size(), checksum, crop.x,
+             crop.y, crop.width, crop.height, options.cosineInModel ? "in" : "out",
+             options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights,
+             options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
 }
 
 Result<void> checkComplete(const PassRows& rows, int height) {
@@ -308,8 +309,8 @@ Result<FitResult> FieldFit::finish() {
   levels[0] = {std::move(data.rows.shared), std::move(data.rows.layers)};
   WEFT_TRY(ReflectanceField field, ReflectanceField::create(data.model, std::move(data.description),
                                                             std::move(levels), data.fitter->tables()));
-  return FitResult{std::move(field),    errors, heldOut, std::move(data.rows.errors),
-                   data.secondsReading, data.secondsFitting};
+  return FitResult{std::move(field),   errors, heldOut, std::move(data.rows.errors), data.secondsReading,
+                   data.secondsFitting};
 }
 
 void FieldFit::removeParts() const {

@@ -10,6 +10,7 @@
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/fitter/FieldFit.h"
+#include "weft/reflectance/RfpModel.h"
 
 namespace weft {
 namespace {
@@ -30,6 +31,17 @@ MemoryBtf unevenBtf(int width = kWidth) {
   btf.description().views.resize(7);
   return btf;
 }
+
+// As `rfp`, with tables that it does not look at.
+class MeanModel : public RfpModel {
+ public:
+  explicit MeanModel(ModelOptions options) : RfpModel(std::move(options), LayerDirections::Views) {}
+
+  std::vector<ModelTable> tables() const override { return {{"mean", {"Y"}, 1, 1}, {"differences", {"Y"}}}; }
+  Result<std::shared_ptr<const ReflectanceModel>> bind(std::shared_ptr<const FieldTables>) const override {
+    return std::make_shared<const MeanModel>(options());
+  }
+};
 
 // Two tables: the mean of all texels, then the differences of about every fifth texel from it. A texel gets
 // its own mean less both.
@@ -61,7 +73,7 @@ class MeanFitter : public FieldFitter {
     return {};
   }
 
-  std::map<std::string, FloatImage> tables() const override {
+  FieldTables tables() const override {
     FloatImage mean(1, 1, {"Y"});
     mean.at(0, 0, 0) = mean_;
     FloatImage differences(static_cast<int>(differences_.size()), 1, {"Y"});
@@ -89,9 +101,12 @@ class MeanFitter : public FieldFitter {
 
 FitOptions meanOptions(const fs::path& parts = {}) {
   FitOptions options;
-  options.model.name = "rfp";
+  options.model.name = "mean";
+  options.models.add({"mean", "Tables.", {ModelOption::color()}, [](ModelOptions given) {
+                        return std::make_shared<const MeanModel>(std::move(given));
+                      }});
   options.fitters = {};
-  options.fitters.add("rfp", [](const FitProblem&) -> Result<std::unique_ptr<FieldFitter>> {
+  options.fitters.add("mean", [](const FitProblem&) -> Result<std::unique_ptr<FieldFitter>> {
     return std::make_unique<MeanFitter>();
   });
   options.precision = Precision::Float;
@@ -101,7 +116,8 @@ FitOptions meanOptions(const fs::path& parts = {}) {
 
 void expectSame(const FitResult& a, const FitResult& b) {
   for (const char* table : {"mean", "differences"})
-    EXPECT_TRUE(std::ranges::equal(a.tables.at(table).values(), b.tables.at(table).values())) << table;
+    EXPECT_TRUE(std::ranges::equal(a.field.tables().at(table).values(), b.field.tables().at(table).values()))
+        << table;
   EXPECT_TRUE(std::ranges::equal(a.field.shared().values(), b.field.shared().values()));
   EXPECT_TRUE(std::ranges::equal(a.field.layers().values(), b.field.layers().values()));
   EXPECT_EQ(a.field.description().fitReport, b.field.description().fitReport);
@@ -126,8 +142,8 @@ TEST(FieldFitter, GathersOverAllTexels) {
              static_cast<double>(rows.floats().size() / 3);
   }
   const FitResult fit = valueOf(fitReflectanceField(source, meanOptions()));
-  EXPECT_NEAR(fit.tables.at("mean").at(0, 0, 0), sum / kHeight, 1e-5);
-  EXPECT_EQ(fit.tables.at("differences").width(), kWidth * kHeight / 5);
+  EXPECT_NEAR(fit.field.tables().at("mean").at(0, 0, 0), sum / kHeight, 1e-5);
+  EXPECT_EQ(fit.field.tables().at("differences").width(), kWidth * kHeight / 5);
 }
 
 TEST(FieldFitter, NeitherThreadsNorBlocksChangeTheResult) {

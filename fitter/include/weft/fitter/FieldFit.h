@@ -53,10 +53,10 @@ struct FitOptions {
 
 struct FitResult {
   ReflectanceField field;
-  FitErrors errors;                          ///< of the field as stored, over all fitted pairs
-  std::optional<FitErrors> heldOut;          ///< over the others, if any were held out
-  std::vector<SplitErrors> texels;           ///< row by row
-  double secondsReading = 0.0;               ///< waiting for samples
+  FitErrors errors;                  ///< of the field as stored, over all fitted pairs
+  std::optional<FitErrors> heldOut;  ///< over the others, if any were held out
+  std::vector<SplitErrors> texels;   ///< row by row
+  double secondsReading = 0.0;       ///< waiting for samples
   double secondsFitting = 0.0;
 };
 
