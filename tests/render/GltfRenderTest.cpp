@@ -5,6 +5,7 @@
 #include "GlTest.h"
 #include "GltfText.h"
 #include "TestField.h"
+#include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/ImageComparison.h"
 #include "weft/io/ImageFile.h"
@@ -103,6 +104,39 @@ TEST_F(GltfRender, SamplesTexturesAsTheirSamplerSays) {
   EXPECT_THAT(valuesAlongU(R"({"magFilter":9728,"wrapS":33648})"), ElementsAre(0, 0, 0, 1, 1));
   EXPECT_THAT(valuesAlongU(R"({"magFilter":9728,"wrapT":33071})"), ElementsAre(1, 0, 0, 1, 0));
   EXPECT_THAT(valuesAlongU(R"({"magFilter":9729,"wrapS":33071})"), ElementsAre(0, 0, grey, 1, 1));
+}
+
+// A lean of less than half a step of 8 bits; the lamp stands on the side to which it leans.
+TEST_F(GltfRender, NormalsHaveSixteenBits) {
+  const auto middle = [&](int lean) {
+    test::writeBytes(folder / "normals.png", test::widePng(2, 2, [&](int, int, int c) {
+                       return c == 2 ? 65535 : 32768 + (c == 0 ? lean : 0);
+                     }));
+    const FloatImage image = pictureOfFile(
+        test::planeGltf(R"({"normalTexture":{"index":0},"pbrMetallicRoughness":{"metallicFactor":0}}],)"
+                        R"("textures":[{"source":0}],"images":[{"uri":"normals.png"})"));
+    return image.at(kSize / 2, kSize / 2, 0);
+  };
+  const float flat = middle(0);
+  EXPECT_GT(middle(120), 1.0005f * flat);
+  EXPECT_LT(middle(120), 1.005f * flat);
+}
+
+// What bytes mean, the use says: widePng() claims a gamma of 1.
+TEST_F(GltfRender, ColoursAreSrgbWhateverThePngSays) {
+  const auto picture = [&](const char* file) {
+    return pictureOfFile(test::planeGltf(
+        R"({"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+        R"("textures":[{"source":0}],"images":[{"uri":")" +
+        std::string(file) + R"("})"));
+  };
+  const auto value = [](int x, int y, int c) { return 60 + 30 * c + 20 * x + 10 * y; };
+  test::requireDone(writePng(folder / "narrow.png", test::imageOf(2, 2, value)));
+  test::writeBytes(folder / "wide.png",
+                   test::widePng(2, 2, [&](int x, int y, int c) { return 257 * value(x, y, c) + 60; }));
+  const FloatImage narrow = picture("narrow.png");
+  ASSERT_GT(narrow.at(kSize / 2, kSize / 2, 0), 0.04f);
+  EXPECT_EQ(compareImages(picture("wide.png"), narrow).maximum, 0.0f);
 }
 
 TEST_F(GltfRender, ShowsTheSameThroughANodeThatMirrorsAMirroredMesh) {

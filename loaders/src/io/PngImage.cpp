@@ -20,6 +20,9 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kSignatureBytes = 8;
 constexpr std::uint64_t kMostDeflated = 1032;  // to 1: 258 bytes by two codes of a bit each
+// Pictures that are larger, and packed by more, are unpacked once before memory is taken for them.
+constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kUsualExpansion = 64;
 
 std::uint32_t bigEndian(Bytes bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -150,6 +153,14 @@ Result<ImageHeader> checkedHeader(PngDecoder& decoder, Bytes bytes, const std::s
   return header;
 }
 
+/// Whether all rows are there, by way of the memory of a single one.
+bool hasAllRows(PngDecoder& decoder, const ImageHeader& header) {
+  if (!decoder.prepareRows(false)) return false;
+  Image row(header.width, 1, header.channels);
+  std::vector<png_bytep> rows(static_cast<std::size_t>(header.height), row.bytes.data());
+  return decoder.readRows(rows.data());
+}
+
 template <class Value>
 Result<void> decode(Bytes bytes, std::span<Value> pixels, const std::string& where) {
   PngDecoder decoder(bytes);
@@ -189,7 +200,13 @@ bool isPng(Bytes bytes) {
 
 Result<ImageHeader> readPngHeader(Bytes bytes, const std::string& where) {
   PngDecoder decoder(bytes);
-  return checkedHeader(decoder, bytes, where);
+  WEFT_TRY(const ImageHeader header, checkedHeader(decoder, bytes, where));
+  const std::uint64_t values = static_cast<std::uint64_t>(header.width) *
+                               static_cast<std::uint64_t>(header.height) *
+                               static_cast<std::uint64_t>(header.channels);
+  if (values > kFreeBytes + kUsualExpansion * bytes.size() && !hasAllRows(decoder, header))
+    return decoder.failure(where);
+  return header;
 }
 
 Result<void> decodePng(Bytes bytes, std::span<std::uint8_t> pixels, const std::string& where) {

@@ -50,7 +50,7 @@ Result<GltfTextures::Source> GltfTextures::sourceOf(int index, const std::string
       return file_.fail("sampler " + std::to_string(texture.sampler) + " does not exist");
     sampler = file_.model.samplers[static_cast<std::size_t>(texture.sampler)];
   }
-  WEFT_TRY(std::shared_ptr<const Image> pixels, image(texture.source, texture, use));
+  WEFT_TRY(Pixels pixels, image(texture.source, texture, use));
   return Source{std::move(pixels), optionsOf(sampler)};
 }
 
@@ -59,7 +59,10 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool sr
   WEFT_TRY(Source source, sourceOf(index, use));
   source.options.srgb = srgb;
   std::shared_ptr<const TextureChunk> chunk;
-  if (source.image) chunk = std::make_shared<const TextureChunk>(std::move(source.image), source.options);
+  if (source.pixels.wide && !srgb)
+    chunk = std::make_shared<const TextureChunk>(std::move(source.pixels.wide), source.options);
+  else if (source.pixels.image)
+    chunk = std::make_shared<const TextureChunk>(std::move(source.pixels.image), source.options);
   return chunks_[{index, srgb}] = std::move(chunk);
 }
 
@@ -68,44 +71,52 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::roughnessOf(int index,
   if (const auto found = roughness_.find({index, factor}); found != roughness_.end()) return found->second;
   WEFT_TRY(const Source source, sourceOf(index, use));
   std::shared_ptr<const TextureChunk>& chunk = roughness_[{index, factor}];
-  if (!source.image || source.image->channels % 2 != 0) return chunk;
-  convertedBytes_ += source.image->bytes.size();
+  const Image* glossiness = source.pixels.image.get();
+  if (!glossiness || glossiness->channels % 2 != 0) return chunk;
+  convertedBytes_ += glossiness->bytes.size();
   // One image may be converted for any number of factors.
   if (convertedBytes_ > decodedBytes_ + file_.memoryLimit) {
     warnings_.push_back("the " + use + " is left out: it takes too much memory for a file of this size");
     return chunk;
   }
-  auto image = std::make_shared<const Image>(roughnessFrom(*source.image, factor));
+  auto image = std::make_shared<const Image>(roughnessFrom(*glossiness, factor));
   return chunk = std::make_shared<const TextureChunk>(std::move(image), source.options);
 }
 
-Result<std::shared_ptr<const Image>> GltfTextures::image(int index, const tinygltf::Texture& texture,
-                                                         const std::string& use) {
+Result<GltfTextures::Pixels> GltfTextures::image(int index, const tinygltf::Texture& texture,
+                                                 const std::string& use) {
   if (const auto found = images_.find(index); index >= 0 && found != images_.end()) return found->second;
   if (index < 0) {
     std::string extensions;
     for (const auto& [name, value] : texture.extensions)
       extensions += (extensions.empty() ? ": " : ", ") + name;
     warnings_.push_back("the " + use + " is left out: it has no image that Weft reads" + extensions);
-    return std::shared_ptr<const Image>();
+    return Pixels();
   }
   if (static_cast<std::size_t>(index) >= file_.model.images.size())
     return file_.fail("image " + std::to_string(index) + " does not exist");
-  std::shared_ptr<const Image>& kept = images_[index];
-  const auto decoded = [&]() -> Result<std::shared_ptr<const Image>> {
-    WEFT_TRY(const Origin origin, originOf(index));
-    std::shared_ptr<const Image>& known = decoded_[origin.key];
-    if (known) return known;
-    WEFT_TRY(const std::vector<std::uint8_t> bytes, imageBytes(file_, index));
-    WEFT_TRY(Image pixels, decodeImage(bytes, origin.where));
-    decodedBytes_ += pixels.bytes.size();
-    return known = std::make_shared<const Image>(std::move(pixels));
-  }();
-  if (decoded)
-    kept = *decoded;
+  Pixels& kept = images_[index];
+  if (Result<Pixels> pixels = decoded(index))
+    kept = std::move(*pixels);
   else
-    warnings_.push_back("the " + use + " is left out: " + decoded.error().message());
+    warnings_.push_back("the " + use + " is left out: " + pixels.error().message());
   return kept;
+}
+
+Result<GltfTextures::Pixels> GltfTextures::decoded(int index) {
+  WEFT_TRY(const Origin origin, originOf(index));
+  Pixels& known = decoded_[origin.key];
+  if (known.image) return known;
+  WEFT_TRY(const std::vector<std::uint8_t> bytes, imageBytes(file_, index));
+  WEFT_TRY(Image image, decodeImage(bytes, origin.where));
+  decodedBytes_ += image.bytes.size();
+  if (isWideImage(bytes)) {
+    WEFT_TRY(WideImage wide, decodeWideImage(bytes, origin.where));
+    decodedBytes_ += wide.words.size() * sizeof(std::uint16_t);
+    known.wide = std::make_shared<const WideImage>(std::move(wide));
+  }
+  known.image = std::make_shared<const Image>(std::move(image));
+  return known;
 }
 
 Result<GltfTextures::Origin> GltfTextures::originOf(int index) const {

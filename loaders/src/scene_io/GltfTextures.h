@@ -23,26 +23,31 @@ class GltfTextures {
   Result<std::shared_ptr<const TextureChunk>> roughnessOf(int texture, float factor, const std::string& use);
 
  private:
+  /// An image, and where its file has 16 bits, all of them, which colours need not.
+  struct Pixels {
+    std::shared_ptr<const Image> image;
+    std::shared_ptr<const WideImage> wide;
+  };
   /// What a texture shows, and how.
   struct Source {
-    std::shared_ptr<const Image> image;
+    Pixels pixels;
     TextureOptions options;
   };
 
   Result<Source> sourceOf(int texture, const std::string& use);
-  Result<std::shared_ptr<const Image>> image(int index, const tinygltf::Texture& texture,
-                                             const std::string& use);
+  Result<Pixels> image(int index, const tinygltf::Texture& texture, const std::string& use);
   /// Where the bytes of an image are.
   struct Origin {
     std::string key;    ///< equal for images that are the same bytes: a file may list one many times
     std::string where;  ///< for people
   };
   Result<Origin> originOf(int image) const;
+  Result<Pixels> decoded(int image);
 
   const GltfFile& file_;
   std::vector<std::string>& warnings_;
-  std::map<int, std::shared_ptr<const Image>> images_;
-  std::map<std::string, std::shared_ptr<const Image>> decoded_;  ///< by Origin::key
+  std::map<int, Pixels> images_;
+  std::map<std::string, Pixels> decoded_;  ///< by Origin::key
   std::map<std::pair<int, bool>, std::shared_ptr<const TextureChunk>> chunks_;
   std::map<std::pair<int, float>, std::shared_ptr<const TextureChunk>> roughness_;
   std::size_t decodedBytes_ = 0;

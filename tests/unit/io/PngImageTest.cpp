@@ -195,5 +195,26 @@ TEST(PngImage, ClaimsAreProvedBeforeMemoryIsTaken) {
   EXPECT_LT(test::peakMemory() - before, std::uint64_t{60} << 20);
 }
 
+// Palettes and bits become whole bytes, so that a file that deflate could pack takes 30000 times its memory.
+TEST(PngImage, WellPackedPicturesAreProvedBeforeMemoryIsTaken) {
+  TestPng image{.width = 8192,
+                .height = 8192,
+                .depth = 1,
+                .color = PNG_COLOR_TYPE_PALETTE,
+                .more = [](png_structp png, png_infop info) {
+                  png_set_PLTE(png, info, kPalette.data(), 2);
+                  const Bytes alpha{7};
+                  png_set_tRNS(png, info, alpha.data(), 1, nullptr);
+                }};
+  image.rows.assign(8192, Bytes(1024));
+  Bytes bytes = bytesOf(image);
+  EXPECT_LT(bytes.size(), 20000u);
+  EXPECT_EQ(valueOf(photographHeader(bytes, "a.png")).size.width, 8192);
+  bytes[bytes.size() / 2] ^= 255;
+  const std::uint64_t before = test::peakMemory();
+  EXPECT_THAT(decodeImage(bytes, "a.png").error().message(), HasSubstr("a.png: the PNG is damaged"));
+  EXPECT_LT(test::peakMemory() - before, std::uint64_t{60} << 20);
+}
+
 }  // namespace
 }  // namespace weft
