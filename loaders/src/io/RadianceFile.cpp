@@ -146,8 +146,9 @@ Result<void> readVariable(std::string_view line, Header& header, const std::stri
   if (name == "COLORCORR")
     if (const auto f = numbersOf<3>(value); f && (*f)[0] > 0.0 && (*f)[1] > 0.0 && (*f)[2] > 0.0)
       header.exposure *= glm::dvec3((*f)[0], (*f)[1], (*f)[2]);
-  if (name == "PRIMARIES")
-    if (const auto p = numbersOf<8>(value))
+  const auto isNotZero = [](double number) { return number != 0.0; };
+  if (name == "PRIMARIES")  // Photoshop writes eight zeros
+    if (const auto p = numbersOf<8>(value); p && std::ranges::any_of(*p, isNotZero))
       header.primaries = {{(*p)[0], (*p)[1]}, {(*p)[2], (*p)[3]}, {(*p)[4], (*p)[5]}, {(*p)[6], (*p)[7]}};
   if (name == "GAMMA")
     if (const auto gamma = numbersOf<1>(value); gamma && (*gamma)[0] != 1.0)

@@ -175,7 +175,8 @@ TEST(Radiance, WhatIsIgnoredIsSaid) {
   };
   EXPECT_THAT(warningsOf("GAMMA=2.2"), testing::ElementsAre(HasSubstr("gamma")));
   EXPECT_THAT(warningsOf("GAMMA=1.0"), testing::IsEmpty());
-  EXPECT_THAT(warningsOf("PRIMARIES= 0 0 0 0 0 0 0 0"), testing::ElementsAre(HasSubstr("no colours")));
+  EXPECT_THAT(warningsOf("PRIMARIES= 1 0 1 0 1 0 1 0"), testing::ElementsAre(HasSubstr("no colours")));
+  EXPECT_THAT(warningsOf("PRIMARIES=0 0 0 0 0 0 0 0"), testing::IsEmpty());  // Photoshop's
 }
 
 // Old run lengths pack a row of any width into twelve bytes, so a claim is only known by reading the rows.
