@@ -9,12 +9,16 @@
 namespace weft::test {
 
 /// A field that shows `color` wherever light falls head-on.
-inline void writeConstantField(const std::filesystem::path& path, glm::vec3 color) {
+inline void writeConstantField(const std::filesystem::path& path, glm::vec3 color, int width = 1,
+                               int height = 1) {
   const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfp"}));
-  FloatImage shared(1, 1, model->sharedChannels());
-  for (int channel = 0; channel < 3; ++channel) shared.at(0, 0, channel) = color[channel];
-  FloatImage views(1, 1, model->layerChannels(), 1);
-  views.at(0, 0, 5) = 1.0f;
+  FloatImage shared(width, height, model->sharedChannels());
+  FloatImage views(width, height, model->layerChannels(), 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) shared.at(x, y, channel) = color[channel];
+      views.at(x, y, 5) = 1.0f;
+    }
   ReflectanceFieldDescription description;
   description.views = description.lights = {{0, 0, 1}};
   requireDone(writeReflectanceField(

@@ -23,17 +23,25 @@ namespace {
 constexpr std::string_view kShapePrefix = "shape:";
 const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
 
-Result<GltfScene> makeShape(const std::string& name, const GltfOptions& options) {
+// A plane on which the texels of the field are square: its longer side is 1.
+Mesh planeFor(const BTFMaterial* material) {
+  Mesh plane = makePlane();
+  if (!material) return plane;
+  const glm::vec2 texels(material->field().width(), material->field().height());
+  const glm::vec3 sides(texels / std::max(texels.x, texels.y), 1.0f);
+  for (glm::vec3& position : plane.positions) position *= sides;
+  return plane;
+}
+
+Result<GltfScene> makeShape(const std::string& name, std::shared_ptr<const BTFMaterial> replacement) {
   std::shared_ptr<const Mesh> mesh;
-  if (name == "plane") mesh = std::make_shared<const Mesh>(makePlane());
+  if (name == "plane") mesh = std::make_shared<const Mesh>(planeFor(replacement.get()));
   if (name == "sphere") mesh = std::make_shared<const Mesh>(makeSphere());
   if (name == "cloth") mesh = std::make_shared<const Mesh>(makeDrapedCloth());
   if (!mesh)
     return fail("there is no such shape", "shape:" + name, "try shape:plane, shape:sphere or shape:cloth");
-  std::shared_ptr<const Material> material;
-  if (const auto found = options.replacements.find("*"); found != options.replacements.end())
-    material = found->second;
-  else
+  std::shared_ptr<const Material> material = std::move(replacement);
+  if (!material)
     material = std::make_shared<LambertMaterial>(
         LambertOptions{.baseColor = glm::vec4(1.0f), .baseColorTexture = nullptr, .doubleSided = true});
   GltfScene scene;
@@ -53,10 +61,13 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   gltf.lights = options.lamps.empty();
   gltf.time = options.time;
   gltf.animation = options.animation;
+  std::shared_ptr<const BTFMaterial> ofAll;
   for (const auto& [name, file] : options.materialFiles) {
-    WEFT_TRY(gltf.replacements[name], loadBTFMaterial(file, btf, *gltf.fields));
+    WEFT_TRY(const std::shared_ptr<BTFMaterial> material, loadBTFMaterial(file, btf, *gltf.fields));
+    gltf.replacements[name] = material;
+    if (name == "*") ofAll = material;
   }
-  WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), gltf)
+  WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), ofAll)
                                     : loadGltf(options.scene, gltf));
   for (const auto& [name, file] : options.materialFiles)
     if (name != "*" &&
