@@ -14,6 +14,7 @@ namespace {
 constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
 // Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
 constexpr double kLargestNumber = 1e12;
+constexpr double kShortestLook = 1e-15;  // as small as scenes may be
 
 std::optional<double> parsed(const std::string& text) {
   double number{};
@@ -49,7 +50,7 @@ std::pair<std::string, std::string> splitAt(const std::string& text, char separa
 bool readCamera(const std::string& text, SceneOptions& options) {
   const auto [eyeText, targetText] = splitAt(text, ':');
   const auto eye = vectorFrom(eyeText), target = vectorFrom(targetText);
-  if (eye && target && *eye != *target)
+  if (eye && target && glm::distance(*eye, *target) > kShortestLook)
     options.viewpoint = {*eye, *target};
   else if (eye)
     return false;  // a place without a target is no name

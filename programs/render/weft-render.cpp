@@ -145,6 +145,24 @@ ToneCurve curveOf(const std::string& name, bool softUnasked) {
   return name == "soft" || (name.empty() && softUnasked) ? ToneCurve::Soft : ToneCurve::None;
 }
 
+/// Whether a picture shows its background alone.
+bool isEmpty(const FloatImage& picture, const glm::vec4& background) {
+  const auto values = picture.values();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(std::abs(values[i] - background[static_cast<int>(i % 4)]) < 1e-3f)) return false;
+  return true;
+}
+
+/// Why nothing of the scene is to be seen; empty where something is.
+std::string emptiness(const RenderStatistics& statistics, const FloatImage& picture,
+                      const RenderOptions& options) {
+  if (statistics.culled == statistics.objects)
+    return "nothing of the scene is in the picture: the camera looks elsewhere, or its planes leave it out";
+  if (isEmpty(picture, options.background))
+    return "the picture is empty: what is in it is too small to be seen, or is seen from behind";
+  return {};
+}
+
 Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   Size size;
   const auto sceneOptions = readOptions(arguments, size);
@@ -152,7 +170,12 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   const std::vector<std::filesystem::path> files = picturesOf(arguments);
   for (const std::filesystem::path& file : files) WEFT_TRY_VOID(tool.checkOutput(file));
   WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
-  for (const std::string& warning : setup.warnings()) tool.warn(warning);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& warning) {
+    tool.warn(warning);
+    warnings.push_back(warning);
+  };
+  for (const std::string& warning : setup.warnings()) warn(warning);
 
   WEFT_TRY_VOID(checkThreads(std::min(std::thread::hardware_concurrency(), kMostMesaThreads) + 2));
   WEFT_TRY(const std::unique_ptr<HeadlessWindow> window, HeadlessWindow::create());
@@ -170,6 +193,8 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
     setup.turn(glm::two_pi<double>() * static_cast<double>(i) / static_cast<double>(files.size()));
     WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
     FloatImage picture = target.read(context, kSupersampling);
+    if (const std::string why = emptiness(renderer.statistics(), picture, options); !why.empty())
+      warn(files[i].string() + ": " + why);
     expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
     WEFT_TRY_VOID(writePicture(files[i], picture));
   }
@@ -182,7 +207,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
                                 {"filter", arguments.scene.filter},
                                 {"materials", setup.scene().materials},
                                 {"environment", sceneOptions->environment},
-                                {"warnings", setup.warnings()},
+                                {"warnings", warnings},
                                 {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
   if (arguments.frames > 0) {
     const RenderTarget timed(size.width, size.height);

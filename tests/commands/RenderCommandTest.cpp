@@ -230,6 +230,75 @@ TEST_F(RenderCommand, OneNumberIsTheSizeOfASquare) {
   }
 }
 
+/// The plane's square below a node, which may hide behind another.
+std::string placedPlane(const std::string& node, const std::string& more = "") {
+  return test::replaced(
+      test::replaced(test::planeGltf(), R"({"mesh":0,"name":"plane"})", R"({"mesh":0,)" + node + "}" + more),
+      R"("scenes":[{"nodes":[0]}])",
+      more.empty() ? R"("scenes":[{"nodes":[0]}])" : R"("scenes":[{"nodes":[0,1]}])");
+}
+
+TEST_F(RenderCommand, AModelLooksTheSameAnywhereAndOfAnySize) {
+  const auto picture = [&](const std::string& scene, std::vector<std::string> more = {}) {
+    const ProgramRun run = render(write("scene.gltf", scene).string(), std::move(more));
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return test::valueOf(readImage(output)).bytes;
+  };
+  const auto expected = picture(placedPlane(R"("scale":[1,1,1])"));
+  EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 150) << "it is lit";
+  for (const char* node :
+       {R"("translation":[6400000,2133333.3333333335,-6400000])", R"("translation":[1e8,0,-1e8])",
+        R"("scale":[1e9,1e9,1e9])", R"("scale":[1e-6,1e-6,1e-6])", R"("scale":[1e-12,1e-12,1e-12])",
+        R"("translation":[1e9,1e9,1e9],"scale":[1e3,1e3,1e3])"})
+    EXPECT_EQ(picture(placedPlane(node)), expected) << node;
+  EXPECT_EQ(
+      picture(placedPlane(R"("scale":[1,1,1])", R"(,{"mesh":0,"scale":[0,0,0],"translation":[50,0,0]})")),
+      expected)
+      << "what is hidden is not looked for";
+
+  const auto nearby =
+      picture(placedPlane(R"("scale":[1,1,1])"), {"--camera", "0.1,0.2,2:0,0,0", "--light", "1,1,1"});
+  EXPECT_EQ(picture(placedPlane(R"("translation":[6400000,0,0])"),
+                    {"--camera", "6400000.1,0.2,2:6400000,0,0", "--light", "6400001,1,1"}),
+            nearby);
+}
+
+TEST_F(RenderCommand, GroundIsSeenUpToTheFeetHoweverFarItReaches) {
+  const std::string ground = write("ground.gltf", placedPlane(R"("scale":[4e7,4e7,1])")).string();
+  ASSERT_EQ(render(ground, {"--camera", "0,0,2:0,10,2", "--light", "0,0,20"}).exitCode, 0);
+  const Image picture = test::valueOf(readImage(output));
+  EXPECT_GT(picture.pixel(20, 29)[0], 0x40) << "near";
+  EXPECT_EQ(picture.pixel(20, 2)[0], 0x28) << "sky";
+}
+
+TEST_F(RenderCommand, ModelsOfNoSizeThatFloatsCanHoldAreRefused) {
+  const auto run = [&](const std::string& node) {
+    return render(write("scene.gltf", placedPlane(node)).string());
+  };
+  expectBadInput(run(R"("scale":[1e20,1e20,1e20])"), "scene.gltf: the scene is too large, 1e+20 across");
+  expectBadInput(run(R"("scale":[1e-20,1e-20,1e-20])"), "scene.gltf: the scene is too small, 1e-20 across");
+  expectBadInput(run(R"("translation":[1e20,0,0])"), "too far from its origin");
+}
+
+TEST_F(RenderCommand, AnEmptyPictureIsAWarning) {
+  const std::string plane = write("plane.gltf", test::planeGltf()).string();
+  const auto warning = [&](std::vector<std::string> more) {
+    const ProgramRun run = render(plane, std::move(more));
+    EXPECT_EQ(run.exitCode, 0);
+    return run.err;
+  };
+  EXPECT_EQ(warning({"--camera", "0,0,2:0,0,0"}), "");
+  EXPECT_THAT(warning({"--camera", "0,0,2:0,0,4"}),
+              HasSubstr("out.png: nothing of the scene is in the picture"));
+  EXPECT_THAT(warning({"--camera", "0,0,2:0,0,4", "--env", "studio"}), HasSubstr("nothing of the scene"));
+  EXPECT_THAT(warning({"--camera", "0,0,-2:0,0,0"}), HasSubstr("out.png: the picture is empty"));
+  EXPECT_THAT(warning({"--camera", "0,0,9e9:0,0,0"}), HasSubstr("too small to be seen"));
+  const std::string report = (folder / "report.json").string();
+  warning({"--camera", "0,0,2:0,0,4", "--json", report});
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(report))["warnings"].size(), 1u);
+}
+
 TEST_F(RenderCommand, APictureTooLargeForOpenGLIsNamedBySize) {
   const ProgramRun run = test::runProgram(
       "weft-render", {"shape:plane", "-o", (folder / "out.exr").string(), "--size", "8192x8192"});

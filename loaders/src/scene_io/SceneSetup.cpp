@@ -101,8 +101,9 @@ Camera cameraAt(const SceneOptions& options, const GltfScene& scene) {
   const double far = distance + radius;
   // Within a scene what is nearest decides, if it stands still and does not touch the eye.
   const double nearest = options.turns ? 0.0 : distanceTo(*scene.root, viewpoint.eye);
-  const double near = nearest > 1e-8 * far ? 0.9 * nearest * cosineOfCorner(camera, options.aspect)
-                                           : std::max(distance - radius, 1e-4 * far);
+  const double nearestDepth =
+      nearest > 1e-8 * far ? 0.9 * nearest * cosineOfCorner(camera, options.aspect) : 1e-4 * far;
+  const double near = std::max(distance - radius, nearestDepth);
   camera.nearPlane = static_cast<float>(std::min(near, 0.999 * far));
   camera.farPlane = static_cast<float>(far);
   return camera;

@@ -99,6 +99,33 @@ TEST_F(BoxTableTest, FindsEveryBoxThatARayMeets) {
   }
 }
 
+TEST_F(BoxTableTest, FindsTheSameFarFromTheOrigin) {
+  fill(1000);
+  for (const double distance : {6.4e6, 1e9, 1e12}) {
+    const glm::dvec3 origin = distance * glm::dvec3(1, -0.3, 1);
+    BoxTable far;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+      if (!isGone(i)) far.set(i, origin + boxes[i].center, boxes[i].extent);
+    far.update();
+    for (int round = 0; round < 20; ++round) {
+      const glm::dvec3 eye = point(15.0f), target = point(5.0f);
+      const Frustum frustum = frustumOf(Camera::lookAt(eye, target), 1.0f);
+      std::vector<std::uint32_t> numbers, farNumbers;
+      table.findInside(frustum, numbers);
+      far.findInside(frustumOf(Camera::lookAt(origin + eye, origin + target), 1.0f), farNumbers);
+      std::erase_if(numbers, [&](std::uint32_t i) { return std::abs(inside(boxes[i], frustum)) < 2e-2; });
+      std::erase_if(farNumbers, [&](std::uint32_t i) { return std::abs(inside(boxes[i], frustum)) < 2e-2; });
+      EXPECT_EQ(farNumbers, numbers);
+
+      const auto aim = static_cast<std::uint32_t>(random() % boxes.size());
+      std::vector<std::uint32_t> met;
+      far.findMet({origin + eye, boxes[aim].center - eye}, met);
+      EXPECT_EQ(std::find(met.begin(), met.end(), aim) != met.end(), !isGone(aim));
+      EXPECT_LT(met.size(), boxes.size() / 5);
+    }
+  }
+}
+
 TEST_F(BoxTableTest, WhatIsNotANumberIsEverywhere) {
   fill(10);
   table.set(3, glm::vec3(std::numeric_limits<float>::quiet_NaN()), glm::vec3(1.0f));

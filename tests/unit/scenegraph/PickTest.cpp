@@ -154,6 +154,36 @@ TEST(Pick, SeesWhatSwitchesAndLevelsOfDetailShow) {
   EXPECT_DOUBLE_EQ(distance(6), -1.0);
 }
 
+TEST(Pick, FindsPlacesAndLevelsFarFromTheOriginAndOfAnySize) {
+  for (const double scale : {1e-9, 1.0, 1e9})
+    for (const glm::dvec3 place :
+         {glm::dvec3(0), scale * glm::dvec3(6.4e6, 1e6, -6.4e6), scale * glm::dvec3(1e9)}) {
+      Node root(
+          std::make_shared<Transform>(glm::scale(glm::translate(glm::dmat4(1), place), glm::dvec3(scale))));
+      const auto levels =
+          root.addChild(std::make_shared<LOD>(std::vector<float>{static_cast<float>(5.0 * scale)}));
+      levels->addChild(plane(), "near");
+      levels->addChild(plane(), "far");
+      for (const double height : {4.999, 5.001}) {
+        Camera camera = Camera::lookAt(place + scale * glm::dvec3(0, 0, height), place);
+        camera.nearPlane = static_cast<float>(0.1 * scale);
+        camera.farPlane = static_cast<float>(10.0 * scale);
+        const auto hit = pick(root, Ray::through(camera, {0.55f, 0.45f}, 1.0f));
+        ASSERT_TRUE(hit);
+        const double side = 0.1 * height * std::tan(0.35);
+        EXPECT_LT(glm::distance(hit->position, place + scale * glm::dvec3(side, side, 0)),
+                  2e-6 * scale + 1e-12);
+        EXPECT_NEAR(hit->texcoord.x, 0.5 + side, 1e-5);
+        // The ray starts at the near plane.
+        EXPECT_EQ(hit->path.back()->name(), "near") << height;
+        camera.nearPlane = static_cast<float>(1e-4 * scale);
+        const auto farther = pick(root, Ray::through(camera, {0.5f, 0.5f}, 1.0f));
+        ASSERT_TRUE(farther);
+        EXPECT_EQ(farther->path.back()->name(), height < 5.0 ? "near" : "far");
+      }
+    }
+}
+
 TEST(Pick, RaysOfACameraGoThroughTheirPixels) {
   Camera camera = Camera::lookAt({1, 2, 5}, {0, 0, 0});
   for (const float height : {0.0f, 3.0f}) {
