@@ -5,8 +5,13 @@ target_compile_options(weft_options INTERFACE -Wall -Wextra -Wconversion -Wshado
 if(WEFT_WERROR)
   target_compile_options(weft_options INTERFACE -Werror)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+  # As GCC does: products and sums are joined across statements, so that both find the same fits.
+  target_compile_options(weft_options INTERFACE -ffp-contract=fast)
+endif()
 if(WEFT_SANITIZE)
-  set(WEFT_SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  set(WEFT_SANITIZERS
+      -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_compile_definitions(weft_options INTERFACE WEFT_SANITIZE)
 elseif(WEFT_SANITIZE_THREADS)
   set(WEFT_SANITIZERS -fsanitize=thread)
@@ -16,42 +21,78 @@ if(WEFT_SANITIZERS)
   target_compile_options(weft_options INTERFACE ${WEFT_SANITIZERS} -Wno-maybe-uninitialized)
   target_link_options(weft_options INTERFACE ${WEFT_SANITIZERS})
 endif()
-
 # Programs and tests call what is fast, and are compiled a third sooner where they are not made so.
 set(WEFT_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 
-# weft_install_library(NAME libraries...)
-# The library weft::NAME, which links these, and its headers become a component of the installed package weft.
-function(weft_install_library name)
-  set_target_properties(weft_${name} PROPERTIES EXPORT_NAME ${name})
-  target_compile_features(weft_${name} PUBLIC cxx_std_20)
-  target_include_directories(weft_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  install(TARGETS weft_${name} EXPORT weft-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-  install(DIRECTORY include/weft/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft COMPONENT development)
-  set_property(GLOBAL APPEND PROPERTY WEFT_COMPONENTS ${name})
-  list(JOIN ARGN " " links)
-  set_property(GLOBAL APPEND_STRING PROPERTY WEFT_COMPONENT_LINKS "set(weft_${name}_links ${links})\n")
+# What nearly every file includes; CMAKE_DISABLE_PRECOMPILE_HEADERS shows whether it says so.
+set(WEFT_COMMON_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <string> <vector>
+    <fmt/format.h> <glm/vec3.hpp> <tl/expected.hpp>)
+
+# Headers that are made here: <build>/include/weft.
+set(WEFT_GENERATED_HEADERS ${PROJECT_BINARY_DIR}/include)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/Version.h.in
+               ${WEFT_GENERATED_HEADERS}/weft/core/Version.h @ONLY)
+
+# weft_component_header(NAME)
+# weft/NAME.h, which includes every public header of the library.
+function(weft_component_header name)
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/include
+       ${CMAKE_CURRENT_SOURCE_DIR}/include/weft/${name}/*.h)
+  list(FILTER headers EXCLUDE REGEX "-inl\\.h$")
+  list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"\n")
+  list(JOIN headers "" includes)
+  file(CONFIGURE OUTPUT ${WEFT_GENERATED_HEADERS}/weft/${name}.h @ONLY CONTENT
+"#pragma once
+
+/// Every public header of weft::${name}.
+${includes}")
+  if(WEFT_INSTALL)
+    install(FILES ${WEFT_GENERATED_HEADERS}/weft/${name}.h
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft COMPONENT development)
+  endif()
 endfunction()
 
-# weft_library(NAME [INTERNAL] [USES libraries...] [PRIVATE libraries...])
-# The library weft::NAME from src/NAME, or from src where a folder holds one library. INTERNAL: not installed.
+# weft_install_library(NAME libraries...)
+# The library weft::NAME, which links these, and its headers become a component of the package weft.
+function(weft_install_library name)
+  set_target_properties(weft_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS weft_${name} EXPORT weft-targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(DIRECTORY include/weft/${name}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft COMPONENT development)
+  set_property(GLOBAL APPEND PROPERTY WEFT_COMPONENTS ${name})
+  list(JOIN ARGN " " links)
+  set_property(GLOBAL APPEND_STRING PROPERTY WEFT_COMPONENT_LINKS
+               "set(weft_${name}_links ${links})\n")
+endfunction()
+
+# weft_library(NAME [INTERNAL] [USES libraries...] [PRIVATE libraries...] [PRECOMPILE headers...])
+# The library weft::NAME from src/NAME, or from src where a folder holds one library. INTERNAL: not
+# installed. PRECOMPILE: the heavy headers that many of its files include.
 function(weft_library name)
-  cmake_parse_arguments(ARG "INTERNAL" "" "USES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "USES;PRIVATE;PRECOMPILE" ${ARGN})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src)
   if(IS_DIRECTORY ${folder}/${name})
     set(folder ${folder}/${name})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
   add_library(weft_${name} STATIC ${sources})
-  set_target_properties(weft_${name} PROPERTIES LINKER_LANGUAGE CXX)
+  # They may become parts of shared libraries, as of Python's modules.
+  set_target_properties(weft_${name} PROPERTIES LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON)
   add_library(weft::${name} ALIAS weft_${name})
-  target_include_directories(weft_${name} PRIVATE ${folder})
-  target_link_libraries(weft_${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:weft_options>)
-  if(ARG_INTERNAL)
-    target_include_directories(weft_${name} PUBLIC include)
-  else()
-    weft_install_library(${name} ${ARG_USES} ${ARG_PRIVATE})
+  target_compile_features(weft_${name} PUBLIC cxx_std_20)
+  target_include_directories(weft_${name} PRIVATE ${folder} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${WEFT_GENERATED_HEADERS}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(weft_${name} PUBLIC ${ARG_USES}
+                        PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:weft_options>)
+  target_precompile_headers(weft_${name} PRIVATE ${WEFT_COMMON_HEADERS} ${ARG_PRECOMPILE})
+  if(NOT ARG_INTERNAL)
+    weft_component_header(${name})
+    if(WEFT_INSTALL)
+      weft_install_library(${name} ${ARG_USES} ${ARG_PRIVATE})
+    endif()
   endif()
 endfunction()
 
@@ -61,22 +102,40 @@ function(weft_program name source)
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE ${ARGN} weft_options)
   target_compile_options(${name} PRIVATE ${WEFT_LIGHT_OPTIMISATION})
-  target_compile_definitions(${name} PRIVATE WEFT_VERSION="${PROJECT_VERSION}")
+  if(NOT TARGET weft_program_headers)
+    # Compiled once for all: the option parser takes longer than most programs.
+    file(WRITE ${PROJECT_BINARY_DIR}/none.cpp "")
+    add_library(weft_program_headers OBJECT ${PROJECT_BINARY_DIR}/none.cpp)
+    target_link_libraries(weft_program_headers PRIVATE weft::tool weft_options)
+    target_compile_options(weft_program_headers PRIVATE ${WEFT_LIGHT_OPTIMISATION})
+    target_precompile_headers(weft_program_headers PRIVATE
+      ${WEFT_COMMON_HEADERS} <CLI/CLI.hpp> <nlohmann/json.hpp>)
+  endif()
   if(name MATCHES "^weft-")
+    target_precompile_headers(${name} REUSE_FROM weft_program_headers)
+  endif()
+  if(WEFT_INSTALL AND name MATCHES "^weft-")
     install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endfunction()
 
-# weft_test(NAME FOLDER libraries...)
-# A GoogleTest program from FOLDER/*.cpp, every test of it known to ctest.
-function(weft_test name folder)
+# weft_test(NAME FOLDER LABEL libraries...)
+# A GoogleTest program from FOLDER/*.cpp, every test of it known to ctest, under a label.
+function(weft_test name folder label)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-  if(NOT sources)
-    return()
-  endif()
   add_executable(${name} ${sources})
-  target_link_libraries(${name} PRIVATE ${ARGN} weft_test_support GTest::gmock GTest::gtest_main weft_options)
+  target_link_libraries(${name} PRIVATE ${ARGN} weft_test_support weft_test_main GTest::gmock
+                        weft_options)
   target_compile_options(${name} PRIVATE ${WEFT_LIGHT_OPTIMISATION})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 ENVIRONMENT LIBGL_ALWAYS_SOFTWARE=true)
+  target_precompile_headers(${name} PRIVATE
+    <gmock/gmock.h> <filesystem> <fstream> <functional> <map>)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES
+    TIMEOUT 300 LABELS ${label} ENVIRONMENT LIBGL_ALWAYS_SOFTWARE=true)
+endfunction()
+
+# weft_benchmark(NAME SOURCES SOURCE... USES libraries...)
+function(weft_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_USES} weft_options)
 endfunction()

@@ -119,7 +119,7 @@ Result<ExitCode> bake(const Tool& tool, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Tool tool({"weft-bake", "Ray-traces a bidirectional texture function from small-scale geometry.",
-             "weft-bake -o corduroy.zip --pattern corduroy --size 64", WEFT_VERSION});
+             "weft-bake -o corduroy.zip --pattern corduroy --size 64"});
   Arguments arguments;
   addOptions(tool, arguments);
   return tool.run(argc, argv, [&] { return bake(tool, arguments); });

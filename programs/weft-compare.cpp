@@ -108,7 +108,7 @@ Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
 int main(int argc, char** argv) {
   Tool tool({"weft-compare",
              "Fits several models to one measured BTF and reports how they compare, as the papers do.",
-             "weft-compare UBO_WOOL64.zip --models laf,slaf,rfp,rfnl -o wool", WEFT_VERSION});
+             "weft-compare UBO_WOOL64.zip --models laf,slaf,rfp,rfnl -o wool"});
   Arguments arguments;
   addOptions(tool.options(), arguments);
   return tool.run(argc, argv, [&] { return compare(tool, arguments); });

@@ -112,7 +112,7 @@ Result<ExitCode> evaluate(const Tool& tool, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Tool tool({"weft-eval", "Says how well a reflectance field reproduces a measured BTF.",
-             "weft-eval wool.rf.exr --against UBO_WOOL64.zip --report wool.html", WEFT_VERSION});
+             "weft-eval wool.rf.exr --against UBO_WOOL64.zip --report wool.html"});
   Arguments arguments;
   addOptions(tool, arguments);
   return tool.run(argc, argv, [&] { return evaluate(tool, arguments); });

@@ -189,7 +189,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
 
 int main(int argc, char** argv) {
   Tool tool({"weft-fit", "Fits a reflectance model to every texel of a measured BTF.",
-             "weft-fit UBO_WOOL64.zip -o wool.rf.exr --model rfnl --lobes 2", WEFT_VERSION});
+             "weft-fit UBO_WOOL64.zip -o wool.rf.exr --model rfnl --lobes 2"});
   Arguments arguments;
   addOptions(tool, arguments);
   const ProcessGroup group;

@@ -83,7 +83,7 @@ std::string linesOf(const Json& json, const std::string& prefix) {
 
 int main(int argc, char** argv) {
   weft::Tool tool({"weft-info", "Says what a measured BTF or a fitted reflectance field is.",
-                   "weft-info wool.rf.exr --json -", WEFT_VERSION});
+                   "weft-info wool.rf.exr --json -"});
   std::filesystem::path file;
   weft::BtfOptions options;
   tool.options()

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Installs the Debian 12 packages that building and testing Weft needs. Does nothing where all are there.
+# scripts/install-packages.sh [development]: with it, also what .ci/run and scripts/api.sh need
 set -euo pipefail
 
 packages=(
@@ -18,6 +19,14 @@ packages=(
   openexr # exrheader, which must understand our files
   python3 # scripts/measure.sh
 )
+
+if [[ ${1:-} == development ]]; then
+  packages+=(
+    clang # another compiler's warnings and numbers
+    locales # de_DE.UTF-8, where numbers have a comma
+    doxygen doxygen-awesome-css # the API reference
+  )
+fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -227,7 +227,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
 int main(int argc, char** argv) {
   avoidShaderCacheOnFullDisk();
   Tool tool({"weft-render", "Renders a glTF scene or a built-in shape with measured materials to a picture.",
-             "weft-render shape:cloth --material '*=wool.rf.exr' --uv-scale 12 -o wool.png", WEFT_VERSION});
+             "weft-render shape:cloth --material '*=wool.rf.exr' --uv-scale 12 -o wool.png"});
   Arguments arguments;
   CLI::App& options = tool.options();
   arguments.scene.addTo(options);

@@ -12,6 +12,7 @@
 #include "GatheredRows.h"
 #include "RowSaver.h"
 #include "weft/core/Contract.h"
+#include "weft/core/Version.h"
 #include "weft/evaluation/HoldOut.h"
 
 namespace weft {

@@ -155,7 +155,7 @@ TEST(FieldFit, MoreLobesFitBetter) {
             3.0 * epsilon(valueOf(fitReflectanceField(source, optionsFor("rfnl")))));
 }
 
-// models.md, "Cosine": whether or not the data contain n.l, a white surface comes out as l.z, up to the
+// conventions.md, "Cosine": whether or not the data contain n.l, a white surface comes out as l.z, up to the
 // horizon.
 TEST(FieldFit, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
   for (const char* model : {"rfp", "rfnl"})

@@ -83,7 +83,7 @@ TEST(LafFit, EachColorChannelMayHaveLobesOfItsOwn) {
   }
 }
 
-// models.md, "Cosine".
+// conventions.md, "Cosine".
 TEST(LafFit, WhiteLambertianIsTheCosine) {
   for (const char* model : {"laf", "slaf"})
     for (const bool cosineInData : {true, false}) {

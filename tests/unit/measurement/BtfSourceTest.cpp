@@ -407,7 +407,7 @@ TEST(BtfSource, MissingMemoryIsAnError) {
   EXPECT_THAT(result.error().message(), HasSubstr("huge: there is no memory for 201326592000000000 bytes"));
 }
 
-// models.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60 degrees.
+// conventions.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60 degrees.
 TEST(BtfSource, WoolFallsOffWithTheCosine) {
   WEFT_DATA_FILE(zip, "ubo2003/UBO_WOOL64.zip");
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));

@@ -28,8 +28,8 @@ struct DirectionWeights {
 /// triangles. Immutable, thread safe.
 class HemisphereTriangulation {
  public:
-  /// One triangle: `weightRows[k] . (p.x, p.y, 1)` is the barycentric weight of corner k at the parabolic
-  /// point p.
+  /// One triangle. The barycentric weight of corner k at the parabolic point p is the dot product of
+  /// `weightRows[k]` and (p.x, p.y, 1).
   struct Triangle {
     std::array<int, 3> corner{};
     std::array<bool, 3> hullEdge{};  ///< the edge opposite of corner k lies on the hull

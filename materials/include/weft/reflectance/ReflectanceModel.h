@@ -51,7 +51,7 @@ class ReflectanceModel {
   virtual Result<std::shared_ptr<const ReflectanceModel>> bind(
       std::shared_ptr<const FieldTables> tables) const;
   /// What the base colour is multiplied by for unit directions in the tangent frame, clamped at 0
-  /// (models.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the lists of names.
+  /// (conventions.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the lists of names.
   virtual float evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                          glm::vec3 view) const = 0;
   /// evaluate() for many lights and one view, into `values`; models override it where a loop is faster.

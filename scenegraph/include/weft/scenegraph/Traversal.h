@@ -2,7 +2,6 @@
 
 #include <concepts>
 #include <glm/ext/matrix_double4x4.hpp>
-#include <ranges>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,7 +34,9 @@ bool traverse(Root& root, Visitor visitor) {
     const Visit next = visitor(*node, std::as_const(toWorld));
     if (next == Visit::Stop) return false;
     if (next == Visit::Skip) continue;
-    for (const auto& child : std::views::reverse(node->children())) ahead.emplace_back(child.get(), toWorld);
+    const auto& children = node->children();
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      ahead.emplace_back(child->get(), toWorld);
   }
   return true;
 }

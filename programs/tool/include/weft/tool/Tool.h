@@ -9,6 +9,7 @@
 
 #include "weft/core/Progress.h"
 #include "weft/core/Result.h"
+#include "weft/core/Version.h"
 
 namespace CLI {
 class App;
@@ -30,12 +31,12 @@ struct ToolDescription {
   std::string name;     ///< "weft-fit"
   std::string purpose;  ///< one sentence
   std::string example;  ///< one command line
-  std::string version;  ///< WEFT_VERSION
+  std::string version = WEFT_VERSION;
 };
 
 /// What all command line programs share: options, exit codes, messages, progress, `--json`, interruption.
 ///
-///     weft::Tool tool({"weft-fit", "Fits ...", "weft-fit wool.zip -o wool.rf.exr", WEFT_VERSION});
+///     weft::Tool tool({"weft-fit", "Fits ...", "weft-fit wool.zip -o wool.rf.exr"});
 ///     tool.options().add_option("INPUT", input, "what to fit")->required();  // include <CLI/CLI.hpp>
 ///     tool.addOutput("-o", output, "the .rf.exr to write")->required();
 ///     return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> { ... });
