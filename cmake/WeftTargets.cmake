@@ -77,8 +77,7 @@ function(weft_library name)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
   add_library(weft_${name} STATIC ${sources})
-  # They may become parts of shared libraries, as of Python's modules.
-  set_target_properties(weft_${name} PROPERTIES LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(weft_${name} PROPERTIES LINKER_LANGUAGE CXX)
   add_library(weft::${name} ALIAS weft_${name})
   target_compile_features(weft_${name} PUBLIC cxx_std_20)
   target_include_directories(weft_${name} PRIVATE ${folder} PUBLIC
