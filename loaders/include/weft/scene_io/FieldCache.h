@@ -8,7 +8,7 @@
 
 #include "weft/core/Result.h"
 #include "weft/materials/BTFTextures.h"
-#include "weft/reflectance/ReflectanceModel.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 
