@@ -12,7 +12,7 @@ namespace {
 
 std::string flagOf(std::string option) {
   std::ranges::replace(option, '_', '-');
-  return "--" + option;
+  return fmt::format("--{}", option);
 }
 
 }  // namespace

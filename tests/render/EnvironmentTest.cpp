@@ -152,7 +152,8 @@ std::vector<FitKind> otherKinds() {
 }
 
 std::string nameOf(const FitKind& kind) {
-  return test::nameOf(kind.model) + (kind.cosineInModel ? " with cosine" : "") + (kind.stored ? " stored" : "");
+  return test::nameOf(kind.model) + (kind.cosineInModel ? " with cosine" : "") +
+         (kind.stored ? " stored" : "");
 }
 
 // The GPU's pictures against sums over all texels, by the same formula.

@@ -13,6 +13,7 @@
 #include "weft/core/Direction.h"
 #include "weft/core/ImageComparison.h"
 #include "weft/materials/BTFMaterial.h"
+#include "weft/reflectance/ModelRegistry.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Shapes.h"
 #include "weft/scenegraph/Transform.h"

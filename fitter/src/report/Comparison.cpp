@@ -26,7 +26,7 @@ std::string fileOf(const ModelDescription& model, const ModelType& type) {
   for (const ModelOption& option : type.options)
     if (const OptionValue& value = model.options.at(option.name);
         option.words.empty() || value != option.standard)
-      name += "-" + textOf(value);
+      name += fmt::format("-{}", textOf(value));
   return name + ".rf.exr";
 }
 

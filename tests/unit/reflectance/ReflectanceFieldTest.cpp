@@ -132,7 +132,8 @@ struct RampParts {
 
   RampParts() {
     description.views = description.lights = {{0, 0, 1}};
-    std::ranges::copy(std::array{0.1f, 0.5f, 0.7f}, ramp.values().begin()); }
+    std::ranges::copy(std::array{0.1f, 0.5f, 0.7f}, ramp.values().begin());
+  }
 
   Result<ReflectanceField> make(const FieldTables& tables) const {
     FieldLevel level{FloatImage(1, 1, {"R", "G", "B"}), FloatImage(1, 1, {"place"}, 1)};

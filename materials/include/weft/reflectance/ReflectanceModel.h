@@ -102,5 +102,4 @@ class ReflectanceModel {
   int colorChannels_;
 };
 
-
 }  // namespace weft

@@ -20,10 +20,10 @@ struct ShaderSource {
   ShaderDefines defines{};  ///< in both stages
   /// `#include "KEY"` takes the file VALUE instead ("model.glsl" -> "rfnl.glsl").
   std::map<std::string, std::string> includeAliases{};
-  /// Files that are given as text, by name; taken before all others.
-  std::map<std::string, std::string> texts{};
   /// Files found here are taken instead of those compiled in; empty: GLContext::shaderFolder().
   std::filesystem::path overrideFolder{};
+  /// Files that are given as text, by name; taken before all others.
+  std::map<std::string, std::string> texts{};
 
   auto operator<=>(const ShaderSource&) const = default;
 };
