@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "OlderFields.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/AtomicFile.h"
@@ -54,6 +55,16 @@ TEST_F(EnvironmentCommand, LightsExposesAndWarns) {
   EXPECT_NEAR(valueOf(readExr(output)).at(20, 15, red), 0.9f, 0.01f);
   ASSERT_EQ(render({"--env", environment, "--show", "specular", "--env-lobes", "paper"}).exitCode, 0);
   EXPECT_EQ(valueOf(readExr(output)).at(20, 15, red), 0.0f);  // a matt sphere
+}
+
+TEST_F(EnvironmentCommand, FieldsWithoutAFormulaForEnvironmentsAreSlowWhichIsSaid) {
+  for (const auto& [field, isSlow] : {std::pair("lfp", true), {"rfp", false}}) {
+    const std::string file = (olderFieldsFolder() / field).string() + ".rf.exr";
+    const ProgramRun run = render({"--env", "studio", "--material", "*=" + file});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.err.find("adds up 9 measured lights, which is slow") != std::string::npos, isSlow)
+        << field << ": " << run.err;
+  }
 }
 
 TEST_F(EnvironmentCommand, WhatIsWrongIsSaid) {

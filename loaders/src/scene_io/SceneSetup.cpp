@@ -16,6 +16,7 @@
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/MaterialGroup.h"
 #include "weft/scenegraph/Shapes.h"
+#include "weft/scenegraph/Traversal.h"
 
 namespace weft {
 namespace {
@@ -124,6 +125,18 @@ std::shared_ptr<Node> cylinderAround(const Bounds& bounds) {
   return node;
 }
 
+// How many measured lights the slowest of a scene's fields adds up under an environment.
+int mostEnvironmentLights(const Node& root) {
+  int most = 0;
+  traverse(root, [&](const Node& node, const glm::mat4&) {
+    const auto* group = dynamic_cast<const MaterialGroup*>(&node.core());
+    const auto* field = group ? dynamic_cast<const BTFMaterial*>(group->material().get()) : nullptr;
+    if (field) most = std::max(most, field->textures()->environmentLights());
+    return Visit::Continue;
+  });
+  return most;
+}
+
 }  // namespace
 
 SceneSetup::SceneSetup(GltfScene scene) : scene_(std::move(scene)) {
@@ -183,6 +196,11 @@ Result<void> SceneSetup::addEnvironment(const SceneOptions& options) {
   std::vector<std::string> found;
   WEFT_TRY(const Environment environment, environmentNamed(options.environment, found));
   for (const std::string& warning : found) warnings_.push_back(options.environment + ": " + warning);
+  if (const int lights = mostEnvironmentLights(*scene_.root); lights > 1)
+    warnings_.push_back(
+        fmt::format("a reflectance field has no formula for light of an environment: every "
+                    "pixel adds up {} measured lights, which is slow",
+                    lights));
   // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
   const float angle = glm::radians(-static_cast<float>(std::fmod(options.environmentRotation, 360.0)));
   const PrefilteredEnvironment prefiltered = prefilter(environment, cacheFolder(), warnings_);

@@ -94,6 +94,7 @@ void BTFTextures::setProgram(FieldProgram program) {
             std::make_shared<const FloatImage>(std::move(program.lookup.triangleOfDirection))));
     add(bindings::trianglesUnit, tableOf(std::move(program.lookup.triangles)));
   }
+  environmentLights_ = program.quadrature.width();
   if (!program.quadrature.empty()) add(bindings::quadratureUnit, tableOf(std::move(program.quadrature)));
 }
 

@@ -35,6 +35,8 @@ class BTFTextures {
   const ShaderSource& source() const { return source_; }
   /// The uniform block, likewise.
   const FieldBlock& block() const { return block_; }
+  /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula for it.
+  int environmentLights() const { return environmentLights_; }
 
  private:
   BTFTextures() = default;
@@ -44,6 +46,7 @@ class BTFTextures {
   std::vector<std::pair<unsigned, std::shared_ptr<const Chunk>>> chunks_;
   ShaderSource source_;
   FieldBlock block_;
+  int environmentLights_ = 0;
 };
 
 }  // namespace weft
