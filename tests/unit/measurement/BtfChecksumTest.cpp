@@ -32,16 +32,18 @@ void writeImage(const fs::path& file, int value) {
 }
 
 TEST(BtfChecksum, OfAFolderIsThatOfItsImages) {
-  const fs::path folder = test::testFolder() / "cloth";
+  const fs::path parent = test::testFolder();
+  const fs::path folder = parent / "cloth";
+  const fs::path renamed = parent / "renamed";
   fs::create_directories(folder);
   writeImage(folder / "tl000_pl000_tv000_pv000.png", 10);
   writeImage(folder / "tl030_pl000_tv000_pv000.png", 20);
   const std::uint64_t checksum = checksumOf(folder);
   std::ofstream(folder / "readme.txt") << "no image";
-  fs::rename(folder, test::testFolder() / "renamed");
-  EXPECT_EQ(checksumOf(test::testFolder() / "renamed"), checksum);
-  writeImage(test::testFolder() / "renamed" / "tl030_pl000_tv000_pv000.png", 21);
-  EXPECT_NE(checksumOf(test::testFolder() / "renamed"), checksum);
+  fs::rename(folder, renamed);
+  EXPECT_EQ(checksumOf(renamed), checksum);
+  writeImage(renamed / "tl030_pl000_tv000_pv000.png", 21);
+  EXPECT_NE(checksumOf(renamed), checksum);
 }
 
 TEST(BtfChecksum, SeesWhichImageIsOfWhichDirection) {
