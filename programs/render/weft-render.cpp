@@ -167,9 +167,10 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   Size size;
   const auto sceneOptions = readOptions(arguments, size);
   if (!sceneOptions) return tool.badUsage(sceneOptions.error());
+  WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
+  WEFT_TRY_VOID(tool.protect(setup.scene().files));
   const std::vector<std::filesystem::path> files = picturesOf(arguments);
   for (const std::filesystem::path& file : files) WEFT_TRY_VOID(tool.checkOutput(file));
-  WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& warning) {
     tool.warn(warning);

@@ -148,7 +148,7 @@ TEST_P(GltfDraco, SurvivesDamage) {
   int refused = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<std::uint8_t> damaged = packed;
-    for (unsigned change = random() % 3; change < 3; ++change)
+    for (auto change = random() % 3; change < 3; ++change)
       damaged[11 + random() % (damaged.size() - 11)] = static_cast<std::uint8_t>(random());
     if (!loadGltf(test::writtenGltf(dracoFile(damaged).dump()))) ++refused;
   }
@@ -175,7 +175,7 @@ TEST(GltfDracoFile, WithOtherBytesForThoseWhoCannotUnpackShowsThese) {
 
 TEST(GltfDracoFile, ThatClaimsMoreThanItsSizeIsRefusedBeforeMemoryIsTaken) {
   const std::vector<std::uint8_t> header{'D', 'R', 'A', 'C', 'O', 2, 2, 1};
-  for (const std::uint8_t method : {0, 1}) {
+  for (const std::uint8_t method : {std::uint8_t{0}, std::uint8_t{1}}) {
     std::vector<std::uint8_t> bytes = header;
     bytes.insert(bytes.end(), {method, 0, 0});
     if (method == 1) bytes.push_back(0);
@@ -349,7 +349,7 @@ TEST(GltfMeshopt, SurvivesDamage) {
   int refused = 0;
   for (int round = 0; round < 300; ++round) {
     std::string damaged = uri;
-    for (unsigned change = random() % 3; change < 3; ++change)
+    for (auto change = random() % 3; change < 3; ++change)
       damaged[start + random() % (damaged.size() - start - 4)] = static_cast<char>('A' + random() % 26);
     Json other = file;
     other["buffers"][0]["uri"] = damaged;

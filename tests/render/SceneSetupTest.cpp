@@ -22,10 +22,10 @@ TEST(SceneSetup, APlaneHasTheAspectOfItsMeasurement) {
     test::writeConstantField(field, glm::vec3(1), size.x, size.y);
     const Bounds plane = boundsOfPlane({{"*", field.string()}});
     const glm::vec2 half = 0.5f * glm::vec2(size) / static_cast<float>(std::max(size.x, size.y));
-    EXPECT_EQ(plane.maximum, glm::vec3(half, 0));
+    EXPECT_EQ(plane.maximum, glm::dvec3(half, 0));
     EXPECT_EQ(plane.minimum, -plane.maximum);
   }
-  EXPECT_EQ(boundsOfPlane({}).maximum, glm::vec3(0.5f, 0.5f, 0));
+  EXPECT_EQ(boundsOfPlane({}).maximum, glm::dvec3(0.5, 0.5, 0));
 }
 
 }  // namespace

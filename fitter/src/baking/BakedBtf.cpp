@@ -1,5 +1,6 @@
 #include "weft/baking/BakedBtf.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -16,14 +17,17 @@ namespace weft {
 
 namespace {
 
-/// Beside the output, because the system's folder for temporary files is often kept in memory.
+/// Beside the output, because the system's folder for temporary files is often kept in memory; without a name
+/// where the file system can, so that nothing stays of a program that is killed.
 Result<std::unique_ptr<std::FILE, int (*)(std::FILE*)>> openScratch(const std::filesystem::path& folder) {
-  std::string name = (folder / ".weft-bake-XXXXXX").string();
-  const int descriptor = mkstemp(name.data());
+  int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (std::string name = (folder / ".weft-bake-XXXXXX").string(); descriptor < 0) {
+    descriptor = mkstemp(name.data());
+    if (descriptor >= 0) unlink(name.c_str());
+  }
   if (descriptor < 0)
     return fail("cannot create a scratch file", folder.string(),
                 "does the folder exist, and is it writable?");
-  unlink(name.c_str());
   std::FILE* file = fdopen(descriptor, "w+b");
   if (!file) close(descriptor);
   if (!file) return fail("cannot open a scratch file", folder.string());

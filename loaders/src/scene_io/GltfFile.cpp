@@ -91,6 +91,15 @@ Result<void> parseModel(Json root, GltfFile& file) {
   return {};
 }
 
+void listFiles(const Json& value, GltfFile& file) {
+  if (value.is_object())
+    if (const auto uri = value.find("uri"); uri != value.end() && uri->is_string())
+      if (auto path = resolveUri(file.path, uri->get_ref<const std::string&>()))
+        file.namedFiles.push_back(std::move(*path));
+  if (value.is_structured())
+    for (const Json& member : value) listFiles(member, file);
+}
+
 void listImages(const Json& root, GltfFile& file) {
   const auto images = root.find("images");
   for (std::size_t i = 0; images != root.end() && i < images->size(); ++i) {

@@ -29,6 +29,7 @@ struct GltfFile {
   std::vector<GltfBuffer> buffers;
   GltfContents contents;
   std::vector<std::string> warnings;  ///< about what was left out
+  std::vector<std::filesystem::path> namedFiles;  ///< all that its uris name, there or not
   /// So many bytes may be made of it: what a file claims without bytes of its own (zeros, sparse values, one
   /// accessor in many meshes) must not take more memory than files of its size need.
   std::size_t memoryLimit = 0;

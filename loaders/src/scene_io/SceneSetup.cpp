@@ -28,7 +28,7 @@ const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
 Mesh planeFor(const BTFMaterial* material) {
   Mesh plane = makePlane();
   if (!material) return plane;
-  const glm::vec2 texels(material->field().width(), material->field().height());
+  const glm::vec2 texels(material->textures()->size());
   const glm::vec3 sides(texels / std::max(texels.x, texels.y), 1.0f);
   for (glm::vec3& position : plane.positions) position *= sides;
   return plane;

@@ -42,6 +42,7 @@ class PackedField {
     if (!images_[unit]) {
       WEFT_TRY(const ReflectanceField field, source_());
       images_ = packed(field, prepared_);
+      if (!images_[unit]) return fail("the reflectance field is not the one that was loaded");
     }
     return source_ ? std::exchange(images_[unit], nullptr) : images_[unit];
   }
@@ -68,6 +69,7 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
   if (const std::size_t tables = field.tables().size(); tables > bindings::mostTables)
     return fail(fmt::format("the field has {} tables of at most {}", tables, bindings::mostTables));
   std::shared_ptr<BTFTextures> made(new BTFTextures);
+  made->size_ = {field.width(), field.height()};
   made->setProgram(FieldProgram::create(field));
   const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());
   if (prepared) made->source_.defines.emplace_back("ENVIRONMENT_LAYERS", "");

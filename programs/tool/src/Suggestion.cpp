@@ -34,7 +34,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 std::string didYouMean(const std::string& mistyped, const std::vector<std::string>& words) {
   const std::string typed = lower(mistyped);
   const std::string* best = nullptr;
-  std::size_t smallest = (typed.size() + 1) / 3 + 1;  // more, and another word was meant
+  std::size_t smallest = typed.size() / 3 + 1;  // more, and another word was meant
   for (const std::string& word : words) {
     const std::size_t distance = editDistance(typed, lower(word));
     if (distance >= smallest) continue;

@@ -29,7 +29,8 @@ struct Tool::Data {
   int threads = 0;
   std::filesystem::path json;
   std::vector<const CLI::Option*> outputs;
-  std::vector<std::filesystem::path> inputs;  ///< what other options name
+  std::vector<std::filesystem::path> files;   ///< what these name, but for stdout
+  std::vector<std::filesystem::path> inputs;  ///< what other options name, and what those files do
   std::unique_ptr<tbb::global_control> threadLimit;
   int stdoutError = 0;  ///< errno of the first text that could not be printed
 
@@ -54,7 +55,8 @@ struct Tool::Data {
   }
 
   std::optional<ExitCode> parse(int argc, const char* const* argv);
-  Result<void> checkOutputs();
+  void findFiles();
+  Result<void> checkOutputs() const;
   ExitCode parseAndWork(int argc, const char* const* argv, const std::function<Result<ExitCode>()>& work);
 };
 
@@ -73,9 +75,7 @@ std::optional<ExitCode> Tool::Data::parse(int argc, const char* const* argv) {
   return std::nullopt;
 }
 
-/// Before the work, which may take hours.
-Result<void> Tool::Data::checkOutputs() {
-  std::vector<std::filesystem::path> files;
+void Tool::Data::findFiles() {
   std::vector<std::string> words;
   for (const CLI::Option* option : app.get_options()) {
     const bool isOutput = std::ranges::find(outputs, option) != outputs.end();
@@ -86,6 +86,9 @@ Result<void> Tool::Data::checkOutputs() {
         files.emplace_back(word);
   }
   inputs = existingFiles(words);
+}
+
+Result<void> Tool::Data::checkOutputs() const {
   WEFT_TRY_VOID(checkStdout(inputs));
   for (const std::filesystem::path& file : files) WEFT_TRY_VOID(checkOutputFile(file, inputs));
   return checkDistinct(files);
@@ -97,7 +100,8 @@ ExitCode Tool::Data::parseAndWork(int argc, const char* const* argv,
   if (threads > 0)
     threadLimit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                         static_cast<std::size_t>(threads));
-  const Result<void> writable = checkOutputs();
+  findFiles();
+  const Result<void> writable = checkOutputs();  // before the work, which may take hours
   const Result<ExitCode> result = writable ? work() : tl::unexpected<Error>(writable.error());
   if (result) return *result;
   printMessage(result.error().message());
@@ -167,6 +171,11 @@ Progress Tool::progress(std::string label, double amount, std::string unit) cons
   auto printer = std::make_shared<ProgressPrinter>(std::move(label), amount, std::move(unit),
                                                    isatty(STDERR_FILENO) != 0);
   return [printer](double fraction) { printer->update(fraction); };
+}
+
+Result<void> Tool::protect(const std::vector<std::filesystem::path>& inputs) const {
+  data_->inputs.insert(data_->inputs.end(), inputs.begin(), inputs.end());
+  return data_->checkOutputs();
 }
 
 int Tool::threads() const {

@@ -74,6 +74,7 @@ TEST(Suggestion, CountsLettersThatDiffer) {
   EXPECT_EQ(editDistance("corduroy", "cordoury"), 2u);
   EXPECT_EQ(didYouMean("tile", {"weave", "tiles"}), " (did you mean tiles?)");
   EXPECT_EQ(didYouMean("felt", {"weave", "tiles"}), "");
+  EXPECT_EQ(didYouMean("-x", {"-o"}), "");
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ struct GltfScene {
   std::vector<GltfData> data;          ///< unknown extensions and extras, in the order of the file
   int lights = 0;
   Bounds bounds;
+  std::vector<std::filesystem::path> files;  ///< that its uris name: buffers, images, fields, there or not
   std::vector<std::string> warnings;  ///< what of the file is not shown, or not as it says, a sentence each
 };
 

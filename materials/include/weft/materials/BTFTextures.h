@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ class BTFTextures {
                                                            bool preparedForEnvironments = false,
                                                            FieldSource source = {});
 
+  /// Texels of the field across and down.
+  glm::ivec2 size() const { return size_; }
   /// Slots and what belongs into them: all but the program and the uniform block.
   const std::vector<std::pair<unsigned, std::shared_ptr<const Chunk>>>& chunks() const { return chunks_; }
   /// The program, but for what a material chooses.
@@ -43,6 +46,7 @@ class BTFTextures {
   void setProgram(FieldProgram program);
   void add(int unit, std::shared_ptr<const Chunk> chunk);
 
+  glm::ivec2 size_{};
   std::vector<std::pair<unsigned, std::shared_ptr<const Chunk>>> chunks_;
   ShaderSource source_;
   FieldBlock block_;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "weft/core/Progress.h"
 #include "weft/core/Result.h"
@@ -75,6 +76,10 @@ class Tool {
   /// For outputs that no option names as they are (numbered pictures, files of a folder): the checks that
   /// addOutput() promises. Call it before the work.
   Result<void> checkOutput(const std::filesystem::path& file) const;
+
+  /// Adds files that an input names itself, as a glTF does its images, to what no output may replace, and checks
+  /// the outputs again. Call it before anything is written.
+  Result<void> protect(const std::vector<std::filesystem::path>& inputs) const;
 
   /// The number of threads that TBB may use.
   int threads() const;
