@@ -70,7 +70,7 @@ FloatImage smoothNumbers(int size, const std::vector<std::string>& channels, int
 
 // Two lobes and 81 views, as of UBO2003.
 std::filesystem::path writtenField(const std::filesystem::path& folder, int size) {
-  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfnl", .lobes = 2}));
+  const auto model = valueOf(ModelRegistry::builtin().create({.name = "rfnl", .options = {{"lobes", 2}}}));
   ReflectanceFieldDescription description;
   for (int i = 0; i < 81; ++i)
     description.views.push_back(directionFromDegrees(75.0 * std::sqrt(i / 80.0), 137.5 * i));

@@ -340,7 +340,9 @@ TEST_F(BTFMaterialTest, ChangedOptionsShowWhatANewMaterialOfThemShows) {
     const FloatImage changed = picture(*root, 32, 32);
     const auto fresh = scene(valueOf(BTFMaterial::create(textures, options)), square(), {0.3f, 0.2f, 0.9f});
     expectEqualPictures(changed, picture(*fresh, 32, 32), 0.0f);
-    if (!options.doubleSided) EXPECT_GT(compareImages(changed, last, 1e-3f).failingShare, 0.1);
+    if (!options.doubleSided) {
+      EXPECT_GT(compareImages(changed, last, 1e-3f).failingShare, 0.1);
+    }
     last = changed;
   }
   for (const auto& [slot, chunk] : textures->chunks()) EXPECT_EQ(material->state().at(slot), chunk.get());
@@ -353,11 +355,10 @@ TEST_F(BTFMaterialTest, TintAndExposureMultiplyWhatIsShown) {
   };
   const FloatImage plain = shown({});
   const FloatImage tinted = shown({.tint = {0.5f, 0.25f, 2.0f}, .exposure = 1.0f});
+  const glm::vec3 factors(1.0f, 0.5f, 4.0f);
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x)
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(tinted.at(x, y, c),
-                    std::array{1.0f, 0.5f, 4.0f}.at(static_cast<std::size_t>(c)) * plain.at(x, y, c), 1e-6f);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(tinted.at(x, y, c), factors[c] * plain.at(x, y, c), 1e-6f);
 }
 
 TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {

@@ -144,11 +144,12 @@ Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptio
   const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(read));
   WEFT_TRY(const GltfContainer container, containerOf(*bytes, path));
   WEFT_TRY(Json root, parseJson(container, path));
-  GltfFile file{path, {}, {}, contentsOf(root), {}, 0};
+  GltfFile file{path, {}, {}, contentsOf(root), {}, {}, 0};
   WEFT_TRY_VOID(checkVersion(file));
   WEFT_TRY_VOID(checkRequirements(file, options));
   WEFT_TRY_VOID(checkShape(root, path, file.warnings));
   WEFT_TRY_VOID(readBuffers(root, {bytes, container.binary}, file));
+  listFiles(root, file);
   listImages(root, file);
   WEFT_TRY_VOID(parseModel(std::move(root), file));
   file.memoryLimit = memoryLimitOf(file, bytes->size());

@@ -9,6 +9,7 @@
 #include "TestSupport.h"
 #include "TexelFieldFitter.h"
 #include "weft/fitter/FitterRegistry.h"
+#include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
 namespace {

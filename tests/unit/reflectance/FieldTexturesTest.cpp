@@ -1,4 +1,5 @@
 #include "weft/reflectance/FieldTextures.h"
+#include "weft/shaders/Bindings.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +93,7 @@ TEST(FieldTextures, HoldLevelsAndTables) {
   for (int x = 0; x < 5; ++x) EXPECT_EQ(textures.tables.at("ramp").at(x, 0, 0, 0), ramp.at(x, 0, 0));
   EXPECT_EQ(gpuBytes(field), 8u * 2 * (3 * 2 + 1) + 16u * 5);
   const FieldProgram program = FieldProgram::create(field);
-  EXPECT_EQ(program.defines.at("TABLE_ramp"), std::to_string(FieldProgram::kFirstTableUnit));
+  EXPECT_EQ(program.defines.at("TABLE_ramp"), std::to_string(bindings::firstTableUnit));
   EXPECT_EQ(program.texts.at("ramp.glsl"), model->shaderText());
 }
 
