@@ -17,7 +17,7 @@ find_package(libjpeg-turbo REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 find_package(TinyGLTF REQUIRED)
-find_package(draco QUIET) # without these two, glTF files that are packed with them are refused
+# Without it, glTF files that are packed with it are refused.
 find_package(meshoptimizer QUIET)
 find_package(nlohmann_json REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)

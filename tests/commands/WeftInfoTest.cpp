@@ -188,11 +188,11 @@ TEST(WeftInfo, RefusesBadInput) {
   expectRefused(infoOn(folder / "none.zip"), "none.zip: no such file or folder");
   expectRefused(infoOn(folder), "folder: there are no images named by their angles");
   std::ofstream(folder / "text.rf.exr") << "hello";
-  expectRefused(infoOn(folder / "text.rf.exr"), "text.rf.exr: not an OpenEXR file");
+  expectRefused(infoOn(folder / "text.rf.exr"), "text.rf.exr: this is a text, not an OpenEXR file");
   std::ofstream(folder / "text.zip") << "hello";
   expectRefused(infoOn(folder / "text.zip"), "text.zip: this is a text, not a measurement");
   std::ofstream(folder / "tl000_pl000_tv000_pv000.jpg") << "hello";
-  expectRefused(infoOn(folder), "tl000_pl000_tv000_pv000.jpg: this is neither a JPEG nor a PNG");
+  expectRefused(infoOn(folder), "tl000_pl000_tv000_pv000.jpg: this is a text, not a JPEG or PNG image");
   EXPECT_FALSE(fs::exists(report));
 }
 

@@ -40,14 +40,18 @@ class FieldCacheTest : public GlTest {
  protected:
   /// The picture in a window of its own.
   Result<FloatImage> elsewhere(const Node& root) {
+    auto image = inAnotherWindow(root);
+    window->makeCurrent();
+    return image;
+  }
+
+ private:
+  static Result<FloatImage> inAnotherWindow(const Node& root) {
     const auto other = valueOf(HeadlessWindow::create(true));
     RenderAction action;
     const RenderTarget target(8, 8, Precision::Float);
-    const auto rendered = action.render(other->context(), root, squareCamera(), target);
-    auto image = target.read(other->context());
-    window->makeCurrent();
-    if (!rendered) return tl::unexpected(rendered.error());
-    return image;
+    WEFT_TRY_VOID(action.render(other->context(), root, squareCamera(), target));
+    return target.read(other->context());
   }
 };
 

@@ -53,6 +53,11 @@ class GltfReference : public testing::Test {
     return missing(uri + ".bin", uri + ".png", uri + ".rf.exr");
   }
 
+  // The meshes here have no texture coordinates.
+  static bool isOfCoordinates(const std::string& warning) {
+    return warning.find("TEXCOORD_0") != std::string::npos;
+  }
+
   std::string missing(const std::string& buffer, const std::string& image, const std::string& field) {
     file["buffers"][0]["uri"] = buffer;
     file["images"][0]["uri"] = image;
@@ -61,7 +66,8 @@ class GltfReference : public testing::Test {
     const auto scene = loadGltf(folder / "scene.gltf");
     if (!scene) return scene.error().message();
     std::string warnings;
-    for (const std::string& warning : scene->warnings) warnings += warning + "\n";
+    for (const std::string& warning : scene->warnings)
+      if (!isOfCoordinates(warning)) warnings += warning + "\n";
     if (!warnings.empty() || drawnIn(*scene).size() != 2) return warnings + "something is not shown";
     const auto* textured = dynamic_cast<const PBRMaterial*>(drawnIn(*scene)[0].material.get());
     const bool isTextured = textured && textured->options().baseColorTexture.image;
@@ -124,12 +130,14 @@ class GltfDataUri : public GltfReference {
  protected:
   /// The warnings or failure with these uris for buffer and image.
   std::string said(const std::string& buffer, const std::string& image) {
-    file["meshes"][0]["primitives"].erase(1);
+    if (file["meshes"][0]["primitives"].size() > 1) file["meshes"][0]["primitives"].erase(1);
     file["buffers"][0]["uri"] = buffer;
     file["images"][0]["uri"] = image;
     const auto scene = loadGltf(test::writtenGltf(file.dump()));
     if (!scene) return scene.error().message();
-    return scene->warnings.empty() ? "" : scene->warnings[0];
+    for (const std::string& warning : scene->warnings)
+      if (!isOfCoordinates(warning)) return warning;
+    return "";
   }
 
   std::string bufferBase64() const { return bufferUri.substr(bufferUri.find(',') + 1); }

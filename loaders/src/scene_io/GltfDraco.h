@@ -5,11 +5,9 @@
 namespace weft {
 
 constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
-/// Whether this build has Draco.
-extern const bool kUnpacksDraco;
 
-/// Unpacks the meshes that are there in Draco alone: their accessors then are as others are. Fails, without
-/// Draco as well, where one cannot be unpacked.
-Result<void> unpackDraco(GltfFile& file);
+/// Fails on a mesh that is there in Draco alone. Weft does not unpack it: Debian's library of Draco holds
+/// another version of tinygltf, whose functions would take the place of the one that reads our files.
+Result<void> refuseDraco(const GltfFile& file);
 
 }  // namespace weft
