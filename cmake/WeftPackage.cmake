@@ -46,8 +46,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libexpected-dev, libfmt-dev, libglm-dev, libimath-dev, libhwy-dev, libepoxy-dev, libegl-dev, \
 libopengl-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "libopenexr-dev, libturbojpeg0-dev, libjpeg62-turbo-dev, libpng-dev, libzip-dev, libutf8proc-dev, \
-nlohmann-json3-dev, libtbb-dev, libtinygltf-dev, libmeshoptimizer-dev, \
+    "libopenexr-dev, libturbojpeg0-dev, libjpeg62-turbo-dev, libpng-dev, libzip-dev, \
+libutf8proc-dev, nlohmann-json3-dev, libtbb-dev, libtinygltf-dev, libmeshoptimizer-dev, \
 libeigen3-dev, libembree-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Measured materials for real-time rendering: C++ libraries\n \

@@ -102,9 +102,10 @@ function(weft_program name source)
   target_link_libraries(${name} PRIVATE ${ARGN} weft_options)
   target_compile_options(${name} PRIVATE ${WEFT_LIGHT_OPTIMISATION})
   if(NOT TARGET weft_program_headers)
-    # Compiled once for all: the option parser takes longer than most programs.
-    file(WRITE ${PROJECT_BINARY_DIR}/none.cpp "")
-    add_library(weft_program_headers OBJECT ${PROJECT_BINARY_DIR}/none.cpp)
+    # Compiled once for all: the option parser takes longer than most programs. A program, too,
+    # because the code of a library is placed by other flags.
+    file(WRITE ${PROJECT_BINARY_DIR}/none.cpp "int main() {}\n")
+    add_executable(weft_program_headers EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/none.cpp)
     target_link_libraries(weft_program_headers PRIVATE weft::tool weft_options)
     target_compile_options(weft_program_headers PRIVATE ${WEFT_LIGHT_OPTIMISATION})
     target_precompile_headers(weft_program_headers PRIVATE

@@ -8,7 +8,8 @@
 
 namespace weft {
 
-/// What every program that reads a measurement has: the words for it in --help, --in-order, and its warnings.
+/// What every program that reads a measurement has: the words for it in --help, --in-order, and its
+/// warnings.
 
 constexpr const char* kMeasurementHelp =
     "a folder or zip of angle-named images, or a light list (.lp) with its images";

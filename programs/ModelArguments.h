@@ -13,7 +13,8 @@ class App;
 
 namespace weft {
 
-/// The options of models as options of a command line: all that the types of a registry declare, walked.
+/// The options of models as options of a command line: all that the types of a registry declare,
+/// walked.
 class ModelArguments {
  public:
   explicit ModelArguments(ModelRegistry registry) : registry_(std::move(registry)) {}

@@ -62,8 +62,8 @@ void addOptions(Tool& tool, Arguments& arguments) {
       ->check(CLI::PositiveNumber);
 }
 
-/// Four samples of the surface a texel at the usual sizes, two at large ones: a whole number, so that every
-/// texel sees as much of it.
+/// Four samples of the surface a texel at the usual sizes, two at large ones: a whole number, so
+/// that every texel sees as much of it.
 int surfaceResolution(int size) {
   return size * std::max(2, (256 + size - 1) / size);
 }

@@ -103,13 +103,14 @@ FitOptions fitOptions(const Tool& tool, const Arguments& a, const ModelType& typ
   options.memory = static_cast<std::size_t>(a.memoryGibibytes * 1024.0 * 1024.0 * 1024.0);
   if (a.crop.size() == 4) options.crop = Crop{a.crop[0], a.crop[1], a.crop[2], a.crop[3]};
   options.partsFolder = partsOf(a.output);
-  options.secondsBetweenSaves = group.size() > 1 ? 0.0 : 5.0;  // several exchange their rows this way
+  // several exchange their rows this way
+  options.secondsBetweenSaves = group.size() > 1 ? 0.0 : 5.0;
   options.warn = [&tool](const std::string& message) { tool.warn(message); };
   return options;
 }
 
-// This process's share of the rows in one pass after the other; with several processes the first one then has
-// those of all.
+// This process's share of the rows in one pass after the other; with several processes the first
+// one then has those of all.
 Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const ProcessGroup& group,
                      const Progress& progress) {
   const Result<void> claimed = group.rank() == 0 ? fieldFit.claimParts() : Result<void>();

@@ -1,4 +1,4 @@
-// Draws a cloth of a fitted material into a picture, without a window: offscreen wool.rf.exr cloth.png
+// Draws a cloth of a fitted material into a picture: offscreen wool.rf.exr cloth.png
 #include <cstdio>
 
 #include "weft/io/ImageFile.h"

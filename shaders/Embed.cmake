@@ -1,5 +1,11 @@
 # cmake -DOUTPUT=FILE -DSHADERS=a;b -P Embed.cmake: writes the table behind EmbeddedShaders.h.
-set(code "#include \"weft/shaders/EmbeddedShaders.h\"\n\nnamespace weft {\n\nstd::span<const EmbeddedShader> embeddedShaders() {\n  static constexpr EmbeddedShader table[] = {\n")
+set(code "#include \"weft/shaders/EmbeddedShaders.h\"
+
+namespace weft {
+
+std::span<const EmbeddedShader> embeddedShaders() {
+  static constexpr EmbeddedShader table[] = {
+")
 foreach(shader ${SHADERS})
   cmake_path(GET shader FILENAME name)
   file(READ ${shader} text)

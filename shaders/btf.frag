@@ -1,5 +1,6 @@
-// A reflectance field under point and directional lights (paper M eq. 4) and an environment (5.2), in three stages, a file
-// each: *where* the field is looked up, *fetch* what lies there, and *shade* it.
+// A reflectance field under point and directional lights ([Meseth 2004] eq. 4) and an environment
+// (5.2), in three stages, a file each: *where* the field is looked up, *fetch* what lies there, and
+// *shade* it.
 #version 450 core
 #include "lights.glsl"
 #include "environment.glsl"

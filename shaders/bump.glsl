@@ -1,7 +1,8 @@
-// The model `bump`: BumpModel.h has the formula. Shared: albedo, then a texel of parabolic normal and roughness.
+// The model `bump`: BumpModel.h has the formula. Shared: albedo, then a texel of parabolic normal
+// and roughness.
 #include "ggx.glsl"
 
-float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 view) {
+float evaluateModel(SharedParameters shared_, LayerParameters layer, vec3 light, vec3 view) {
   vec3 numbers = shared_.texels[1].xyz;
   float squared = dot(numbers.xy, numbers.xy);
   vec3 n = vec3(2.0 * numbers.xy, 1.0 - squared) / (1.0 + squared);
@@ -19,14 +20,15 @@ float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 
 void prepareEnvironment(inout EnvironmentFrame frame) {}
 
 // As pbr.frag: the split sum, around the texel's own normal.
-vec3 underEnvironment(SharedNumbers shared_, LayerNumbers layer, vec3 view, EnvironmentFrame frame) {
+vec3 underEnvironment(SharedParameters shared_, LayerParameters layer, vec3 view,
+                      EnvironmentFrame frame) {
   vec3 numbers = shared_.texels[1].xyz;
   float squared = dot(numbers.xy, numbers.xy);
   vec3 n = vec3(2.0 * numbers.xy, 1.0 - squared) / (1.0 + squared);
   vec2 shares = microfacetShares(clamp(abs(dot(n, view)), 0.0, 1.0), numbers.z);
   float reflected = 0.04 * shares.x + shares.y;
   vec3 mirrored = glossyAround(frame.axes * reflect(-view, n), numbers.z);
-  return diffusePart * (1.0 - reflected) * shared_.texels[0].a * mattAround(frame.axes * n) +
+  return diffusePart * (1.0 - reflected) * shared_.texels[0].a * diffuseAround(frame.axes * n) +
          specularPart * reflected * mirrored;
 }
 #endif

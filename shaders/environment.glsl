@@ -1,23 +1,27 @@
-// Light from an environment: what PrefilteredEnvironment and MicrofacetTable hold (materials/src/materials/ImageBasedLight.cpp
-// puts them on their units). Everything is in units of a white surface, which shows 1 in an environment of 1, and without
-// environmentIntensity, by which the sum is multiplied.
+// Light from an environment: what PrefilteredEnvironment and MicrofacetTable hold
+// (materials/src/materials/LightFromEnvironment.cpp puts them on their units). Everything is in
+// units of a white surface, which shows 1 in an environment of 1, and without environmentIntensity,
+// by which the sum is multiplied.
 #ifdef ENVIRONMENT
 
 #include "bindings.glsl"
 
-layout(binding = environmentMomentsUnit) uniform sampler3D environmentMoments;  // octahedral; a layer a moment
-layout(binding = environmentGlossyUnit) uniform sampler3D environmentGlossy;   // octahedral; along z the roughness
+// octahedral; a layer a moment
+layout(binding = environmentMomentsUnit) uniform sampler3D environmentMoments;
+// octahedral; along z the roughness
+layout(binding = environmentGlossyUnit) uniform sampler3D environmentGlossy;
 layout(binding = microfacetTableUnit) uniform sampler2D microfacetTable;
 
 // The surface's axes, tangent frame, in the environment: n lies along the third.
 struct EnvironmentFrame {
   mat3 axes;
-  vec3 matt;        // what a white matt surface shows
+  vec3 diffuse;        // what a white diffuse surface shows
   vec3 moments[6];  // of light times xx, yy, xy, x, y, 1 (rfp.glsl)
 };
 
 vec3 toEnvironment(vec3 world) {
-  return vec3(dot(environmentRows[0].xyz, world), dot(environmentRows[1].xyz, world), dot(environmentRows[2].xyz, world));
+  return vec3(dot(environmentRows[0].xyz, world), dot(environmentRows[1].xyz, world),
+              dot(environmentRows[2].xyz, world));
 }
 
 // OctahedralMap.h: the place of a direction of any length in a bordered map of so many texels.
@@ -40,8 +44,8 @@ vec3 valueOfTable(sampler2D table, vec2 place) {
 
 #include "lobes.glsl"
 
-// What a white matt surface of this normal shows; directions in the environment.
-vec3 mattAround(vec3 normal) {
+// What a white diffuse surface of this normal shows; directions in the environment.
+vec3 diffuseAround(vec3 normal) {
   return averageOfLobe(normal, 0.0);
 }
 
@@ -64,8 +68,9 @@ void fetchMoments(inout EnvironmentFrame frame) {
                      2.0 * (t.x * t.y * m[7] + t.x * t.z * m[8] + t.y * t.z * m[9]);
   frame.moments[1] = b.x * b.x * m[4] + b.y * b.y * m[5] + b.z * b.z * m[6] +
                      2.0 * (b.x * b.y * m[7] + b.x * b.z * m[8] + b.y * b.z * m[9]);
-  frame.moments[2] = t.x * b.x * m[4] + t.y * b.y * m[5] + t.z * b.z * m[6] + (t.x * b.y + t.y * b.x) * m[7] +
-                     (t.x * b.z + t.z * b.x) * m[8] + (t.y * b.z + t.z * b.y) * m[9];
+  frame.moments[2] = t.x * b.x * m[4] + t.y * b.y * m[5] + t.z * b.z * m[6] +
+                     (t.x * b.y + t.y * b.x) * m[7] + (t.x * b.z + t.z * b.x) * m[8] +
+                     (t.y * b.z + t.z * b.y) * m[9];
   frame.moments[3] = t.x * m[1] + t.y * m[2] + t.z * m[3];
   frame.moments[4] = b.x * m[1] + b.y * m[2] + b.z * m[3];
   frame.moments[5] = m[0];

@@ -1,12 +1,12 @@
 // The numbers of a reflectance field, fetched from where FieldTextures.h packs them.
 //
-// A colour channel has SHARED_TEXELS texels for all layers and LAYER_TEXELS a layer. The first shared texel is the base
-// colour and, as alpha, the first shared number. A model's GLSL file defines evaluateModel(), what the base colour is
-// multiplied by.
+// A colour channel has SHARED_TEXELS texels for all layers and LAYER_TEXELS a layer. The first
+// shared texel is the base colour and, as alpha, the first shared number. A model's GLSL file
+// defines evaluateModel(), what the base colour is multiplied by.
 #include "bindings.glsl"
 
-layout(binding = layerNumbersUnit) uniform sampler2DArray layerNumbers;
-layout(binding = sharedNumbersUnit) uniform sampler2DArray sharedNumbers;
+layout(binding = layerParametersUnit) uniform sampler2DArray layerParameters;
+layout(binding = sharedParametersUnit) uniform sampler2DArray sharedParameters;
 
 layout(std140, binding = materialBinding) uniform ReflectanceField {
   vec2 textureScale;         // repetitions per unit of texture coordinates
@@ -16,32 +16,33 @@ layout(std140, binding = materialBinding) uniform ReflectanceField {
   float quadratureExponent;  // of lobes as wide as the measured lights are apart
 };
 
-struct SharedNumbers {
+struct SharedParameters {
   vec4 texels[SHARED_TEXELS];
 };
 
-struct LayerNumbers {
+struct LayerParameters {
   vec4 texels[max(LAYER_TEXELS, 1)];
 };
 
 struct Texel {
-  SharedNumbers channels[COLOR_CHANNELS];
+  SharedParameters channels[COLOR_CHANNELS];
 };
 
 struct Layer {
-  LayerNumbers channels[COLOR_CHANNELS];
+  LayerParameters channels[COLOR_CHANNELS];
 };
 
 // In texels.
 ivec2 fieldSize() {
-  return textureSize(sharedNumbers, 0).xy;
+  return textureSize(sharedParameters, 0).xy;
 }
 
 Texel fetchTexel(ivec2 place) {
   Texel texel;
   for (int c = 0; c < COLOR_CHANNELS; ++c)
     for (int i = 0; i < SHARED_TEXELS; ++i)
-      texel.channels[c].texels[i] = texelFetch(sharedNumbers, ivec3(place, c * SHARED_TEXELS + i), 0);
+      texel.channels[c].texels[i] =
+          texelFetch(sharedParameters, ivec3(place, c * SHARED_TEXELS + i), 0);
   return texel;
 }
 
@@ -55,7 +56,7 @@ Layer fetchLayerFrom(sampler2DArray image, ivec2 place, int index) {
 }
 
 Layer fetchLayer(ivec2 place, int index) {
-  return fetchLayerFrom(layerNumbers, place, index);
+  return fetchLayerFrom(layerParameters, place, index);
 }
 
 // The direction that varies within a layer: each *shade* stage defines it.
@@ -66,5 +67,6 @@ vec3 decodeGamma22(vec3 stored) { return pow(max(stored, 0.0), vec3(2.2)); }
 
 vec3 decodeSrgb(vec3 stored) {
   stored = max(stored, 0.0);
-  return mix(pow((stored + 0.055) / 1.055, vec3(2.4)), stored / 12.92, lessThanEqual(stored, vec3(0.04045)));
+  return mix(pow((stored + 0.055) / 1.055, vec3(2.4)), stored / 12.92,
+             lessThanEqual(stored, vec3(0.04045)));
 }

@@ -1,7 +1,7 @@
-// The models `laf` and `slaf`: LafModel.h has the formula. Shared: the diffuse albedo, then a texel a lobe: amplitude, packed axes,
-// exponent; of a layer the view factor.
+// The models `laf` and `slaf`: LafModel.h has the formula. Shared: the diffuse albedo, then a texel
+// a lobe: amplitude, packed axes, exponent; of a layer the view factor.
 
-float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 view) {
+float evaluateModel(SharedParameters shared_, LayerParameters layer, vec3 light, vec3 view) {
   vec3 products = light * view;
   float value = diffusePart * shared_.texels[0].a;
   for (int j = 0; j < LOBES; ++j) {
@@ -18,12 +18,13 @@ float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 
 
 #ifdef ENVIRONMENT
 void prepareEnvironment(inout EnvironmentFrame frame) {
-  frame.matt = mattAround(frame.axes[2]);
+  frame.diffuse = diffuseAround(frame.axes[2]);
 }
 
 // (C . (l v))^n = |t|^n (t . l / |t|)^n with t = C v: lobes of the light as those of `rfnl`.
-vec3 underEnvironment(SharedNumbers shared_, LayerNumbers layer, vec3 view, EnvironmentFrame frame) {
-  vec3 value = diffusePart * shared_.texels[0].a * frame.matt;
+vec3 underEnvironment(SharedParameters shared_, LayerParameters layer, vec3 view,
+                      EnvironmentFrame frame) {
+  vec3 value = diffusePart * shared_.texels[0].a * frame.diffuse;
 #ifndef ONLY_DIFFUSE
   for (int j = 0; j < LOBES; ++j) {
     vec4 lobe = shared_.texels[1 + j];

@@ -1,4 +1,4 @@
-// A matt surface: radiance = baseColor / pi x irradiance x n.l, seen alike from all sides.
+// A diffuse surface: radiance = baseColor / pi x irradiance x n.l, seen alike from all sides.
 #version 450 core
 #include "lights.glsl"
 #include "environment.glsl"
@@ -32,7 +32,7 @@ void main() {
   }
   vec3 radiance = irradiance / 3.14159265358979;
 #ifdef ENVIRONMENT
-  radiance += environmentIntensity.w * environmentIntensity.rgb * mattAround(toEnvironment(n));
+  radiance += environmentIntensity.w * environmentIntensity.rgb * diffuseAround(toEnvironment(n));
 #endif
   color = shown(vec4(diffusePart * albedo.rgb * radiance, albedo.a));
 }

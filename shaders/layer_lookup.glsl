@@ -1,9 +1,10 @@
-// Which layers of a field (measured views, or lights) a direction lies between, and their weights: HemisphereTriangulation.h and
-// LayerLookup.h say how.
+// Which layers of a field (measured views, or lights) a direction lies between, and their weights:
+// HemisphereTriangulation.h and LayerLookup.h say how.
 #include "bindings.glsl"
 
 layout(binding = triangleOfDirectionUnit) uniform samplerCube triangleOfDirection;
-layout(binding = trianglesUnit) uniform sampler2DRect triangles;  // a row a triangle, a texel a corner
+// a row a triangle, a texel a corner
+layout(binding = trianglesUnit) uniform sampler2DRect triangles;
 
 struct LayerWeights {
   ivec3 index;
@@ -19,7 +20,8 @@ LayerWeights findLayers(vec3 v) {
   vec3 p = vec3(v.xy / (1.0 + v.z), 1.0);
   int triangle = int(texture(triangleOfDirection, v).r);
 
-  // xyz: what the weight is the dot product of p with; w: 1 + the index, negative where the edge opposite of it is the hull.
+  // xyz: what the weight is the dot product of p with; w: 1 + the index, negative where the edge
+  // opposite of it is the hull.
   vec4 corner[3];
   for (int k = 0; k < 3; ++k) corner[k] = texelFetch(triangles, ivec2(k, triangle));
   for (int k = 0; k < 3; ++k) {

@@ -1,8 +1,10 @@
-// The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout). Points and directions have
-// the world's axes; points are relative to the eye, since near it floats are finest. The place in the world: point + origin.xyz.
+// The per-frame block that the renderer fills (scenegraph/src/FrameBlock.h has the same layout).
+// Points and directions have the world's axes; points are relative to the eye, since near it floats
+// are finest. The place in the world: point + origin.xyz.
 #include "bindings.glsl"
 
-// How many lights there are of both kinds is known when a program is compiled, which makes short loops over them fast.
+// How many lights there are of both kinds is known when a program is compiled, which makes short
+// loops over them fast.
 #ifndef DIRECTIONAL_LIGHTS
 #define DIRECTIONAL_LIGHTS 0
 #define PLACED_LIGHTS 0
@@ -12,14 +14,17 @@ const int maximumLights = 16;
 const int lightCount = DIRECTIONAL_LIGHTS + PLACED_LIGHTS;
 
 struct Light {
-  vec4 place;      // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit
+  // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit
+  vec4 place;
   vec4 intensity;  // rgb: candela for a position, lux for a direction; w: 1 / range^2
-  vec4 cone;       // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot light gives
+  // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot gives.
+  vec4 cone;
 };
 
 layout(std140, binding = frameBinding) uniform Frame {
   mat4 viewProjection;
-  vec4 eye;     // (0, 0, 0, 1); of an orthographic view the unit direction towards the viewer, w = 0
+  // (0, 0, 0, 1); of an orthographic view the unit direction towards the viewer, w = 0
+  vec4 eye;
   vec4 origin;  // the eye's place in the world
   Light lights[maximumLights];
   vec4 environmentRows[3];    // xyz: from world space to the environment, where there is one
@@ -43,7 +48,8 @@ vec3 toEye(vec3 point) {
   return normalize(eye.xyz - eye.w * point);
 }
 
-// Irradiance, on a surface that faces the light, at a point; `toLight` becomes the unit direction towards it.
+// Irradiance, on a surface that faces the light, at a point; `toLight` becomes the unit direction
+// towards it.
 vec3 lightAt(int index, vec3 point, out vec3 toLight) {
   if (index < DIRECTIONAL_LIGHTS) {
     toLight = lights[index].place.xyz;

@@ -1,5 +1,5 @@
-// Lobes under an environment: of each the part above the horizon, times n.l, as one lobe (CosineLobe.h), between
-// exponents. LobeLookup says which file takes this one's place.
+// Lobes under an environment: of each the part above the horizon, times n.l, as one lobe
+// (CosineLobe.h), between exponents. LobeLookup says which file takes this one's place.
 
 // Octahedral; along z log2 of the exponent, ENVIRONMENT_LOBES an octave.
 layout(binding = environmentLobesUnit) uniform sampler3D environmentLobes;
@@ -19,9 +19,11 @@ vec3 lightOfLobe(EnvironmentFrame frame, vec3 t, float exponent) {
   float inverse = inversesqrt(squared);
   float root = squared * inverse;
   float cut = spread * inverse * inverse;
-  float facing = max(0.5 * (mean + root) - 0.25 * root * cut * (1.0 - cut) * (1.0 - 0.5 * cut), 0.0);
+  float facing =
+      max(0.5 * (mean + root) - 0.25 * root * cut * (1.0 - cut) * (1.0 - 0.5 * cut), 0.0);
   float shift =
-      narrow * inverse * (1.0 + 0.85 * narrow * cut * cut) * (mean < 0.0 ? 1.0 + 1.85 * (1.0 - cut) : 1.0);
+      narrow * inverse * (1.0 + 0.85 * narrow * cut * cut) *
+      (mean < 0.0 ? 1.0 + 1.85 * (1.0 - cut) : 1.0);
   float below = 0.5 - 0.5 * mean * inverse;
   vec3 direction = frame.axes * (t + shift * (vec3(0.0, 0.0, 1.0) - t.z * t));
   return 2.0 / (exponent + 1.0) * facing *

@@ -1,5 +1,5 @@
-// Lobes under an environment as paper M 5.2 has them, in place of lobes.glsl: as they are, times n.t, their exponents
-// rounded to 2^(i / 2), i = 0..10, in parabolic maps.
+// Lobes under an environment as [Meseth 2004] 5.2 has them, in place of lobes.glsl: as they are,
+// times n.t, their exponents rounded to 2^(i / 2), i = 0..10, in parabolic maps.
 
 // They are not prepared: this way takes a lobe's own direction and exponent.
 #undef ENVIRONMENT_LAYERS

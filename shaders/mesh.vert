@@ -1,4 +1,5 @@
-// Vertex stage of every material: position around the eye and tangent frame, both along the world's axes.
+// Vertex stage of every material: position around the eye and tangent frame, both along the world's
+// axes.
 #version 450 core
 #include "lights.glsl"
 
@@ -8,7 +9,8 @@ layout(location = 2) in vec4 inTangent;
 layout(location = 3) in vec2 inTexcoord;
 layout(location = 4) in vec2 inTexcoord1;
 layout(location = 5) in vec4 inColor;
-// Rows of the matrix to the eye, the same for all vertices of an instance (scenegraph/src/FlatScene.h: ModelRows).
+// Rows of the matrix to the eye, the same for all vertices of an instance
+// (scenegraph/src/FlatScene.h: ModelRows).
 layout(location = 13) in vec4 modelRow0;
 layout(location = 14) in vec4 modelRow1;
 layout(location = 15) in vec4 modelRow2;
@@ -36,8 +38,10 @@ void main() {
   // The rows of the inverse transpose, but for the factor det(model).
   vec3 cofactor0 = cross(row1, row2), cofactor1 = cross(row2, row0), cofactor2 = cross(row0, row1);
   float mirror = dot(row0, cofactor0) < 0.0 ? -1.0 : 1.0;
-  normal = mirror * unit(vec3(dot(cofactor0, inNormal), dot(cofactor1, inNormal), dot(cofactor2, inNormal)));
-  tangent = unit(vec3(dot(row0, inTangent.xyz), dot(row1, inTangent.xyz), dot(row2, inTangent.xyz)));
+  normal = mirror * unit(vec3(dot(cofactor0, inNormal), dot(cofactor1, inNormal),
+                              dot(cofactor2, inNormal)));
+  tangent = unit(vec3(dot(row0, inTangent.xyz), dot(row1, inTangent.xyz),
+                      dot(row2, inTangent.xyz)));
   // A mirroring transform turns the handedness of the whole frame.
   handedness = mirror * inTangent.w;
   texcoord = inTexcoord;

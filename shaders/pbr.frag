@@ -1,5 +1,5 @@
-// The metallic-roughness material of glTF 2.0 (appendix B) under point and directional lights and an environment;
-// PBRMaterial.h has the formula.
+// The metallic-roughness material of glTF 2.0 (appendix B) under point and directional lights and
+// an environment; PBRMaterial.h has the formula.
 #version 450 core
 #include "lights.glsl"
 #include "environment.glsl"
@@ -19,8 +19,10 @@ layout(std140, binding = materialBinding) uniform PBR {
   vec4 baseColorFactor;  // linear
   vec4 emissionFactor;   // rgb: linear; w: alpha below which ALPHA_MASK draws nothing
   vec4 fresnel;          // of the dielectric: F0 before it is clamped; w: specular
-  vec4 factors;          // metallic, roughness, scale of the normal texture, strength of the occlusion
-  vec4 normalFrame;      // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent
+  // Metallic, roughness, scale of the normal texture, strength of the occlusion.
+  vec4 factors;
+  // 2 x 2: the normal texture's directions in the mesh's tangent and bitangent.
+  vec4 normalFrame;
   Placement placements[pbrUnitCount];
 };
 
@@ -90,7 +92,8 @@ Surface surfaceOf(vec3 base) {
 #ifdef SPECULAR_TEXTURE
   specular *= fetch(specularTexture, specularUnit).a;
 #endif
-  return Surface(base, metallic, roughness, roughness * roughness, specular * min(f0, vec3(1.0)), specular);
+  return Surface(base, metallic, roughness, roughness * roughness, specular * min(f0, vec3(1.0)),
+                 specular);
 }
 
 // Unit; on a back face the whole mapped normal turns.
@@ -131,17 +134,19 @@ float openness() {
 #endif
 }
 
-// The split sum: what the microfacets reflect in all, times the average of what they mirror. The rest enters a dielectric.
+// The split sum: what the microfacets reflect in all, times the average of what they mirror. The
+// rest enters a dielectric.
 vec3 fromEnvironment(Surface surface, vec3 n, vec3 v) {
   float nv = dot(n, v);
   vec2 shares = microfacetShares(clamp(abs(nv), 0.0, 1.0), surface.roughness);
   vec3 mirrored = specularPart * glossyAround(toEnvironment(2.0 * nv * n - v), surface.roughness);
-  vec3 matt = diffusePart * mattAround(toEnvironment(n));
+  vec3 diffuse = diffusePart * diffuseAround(toEnvironment(n));
   vec3 reflected = surface.f0 * shares.x + surface.f90 * shares.y;
   float entering = 1.0 - max(reflected.r, max(reflected.g, reflected.b));
-  vec3 dielectric = entering * surface.base * matt + reflected * mirrored;
+  vec3 dielectric = entering * surface.base * diffuse + reflected * mirrored;
   vec3 metal = (surface.base * shares.x + shares.y) * mirrored;
-  return openness() * environmentIntensity.w * environmentIntensity.rgb * mix(dielectric, metal, surface.metallic);
+  return openness() * environmentIntensity.w * environmentIntensity.rgb *
+         mix(dielectric, metal, surface.metallic);
 }
 #endif
 

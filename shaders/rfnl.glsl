@@ -1,7 +1,7 @@
-// The models `rfnl` and `lfnl`: RfnlModel.h has the formula. A texel a lobe: amplitude, parabolic direction, exponent; with a
-// diffuse albedo of each view's own, one more.
+// The models `rfnl` and `lfnl`: RfnlModel.h has the formula. A texel a lobe: amplitude, parabolic
+// direction, exponent; with a diffuse albedo of each view's own, one more.
 
-float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 view) {
+float evaluateModel(SharedParameters shared_, LayerParameters layer, vec3 light, vec3 view) {
   vec3 varied = variedDirection(light, view);
 #if OWN_DIFFUSE_ALBEDO
   float value = diffusePart * layer.texels[LOBES].x;
@@ -20,15 +20,16 @@ float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 
 
 #ifdef ENVIRONMENT
 void prepareEnvironment(inout EnvironmentFrame frame) {
-  frame.matt = mattAround(frame.axes[2]);
+  frame.diffuse = diffuseAround(frame.axes[2]);
 }
 
-// Paper M 5.2.
-vec3 underEnvironment(SharedNumbers shared_, LayerNumbers layer, vec3 view, EnvironmentFrame frame) {
+// [Meseth 2004] 5.2.
+vec3 underEnvironment(SharedParameters shared_, LayerParameters layer, vec3 view,
+                      EnvironmentFrame frame) {
 #if OWN_DIFFUSE_ALBEDO
-  vec3 value = diffusePart * layer.texels[LOBES].x * frame.matt;
+  vec3 value = diffusePart * layer.texels[LOBES].x * frame.diffuse;
 #else
-  vec3 value = diffusePart * shared_.texels[0].a * frame.matt;
+  vec3 value = diffusePart * shared_.texels[0].a * frame.diffuse;
 #endif
 #ifndef ONLY_DIFFUSE
   for (int j = 0; j < LOBES; ++j) {

@@ -20,7 +20,8 @@ vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame, EnvironmentFrame env
     // Sampled at measured lights, two of three weights are no more than rounding.
     for (int k = 0; k < 3; ++k)
       if (layers.weight[k] > 2e-6)
-        radiance += layers.weight[k] * light * valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
+        radiance += layers.weight[k] * light *
+                    valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
   }
   return radiance;
 }

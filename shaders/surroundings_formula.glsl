@@ -2,7 +2,8 @@
 #ifdef ENVIRONMENT
 
 #ifdef ENVIRONMENT_LAYERS
-layout(binding = preparedNumbersUnit) uniform sampler2DArray preparedNumbers;  // FieldTextures::preparedLayers
+// FieldTextures::preparedLayers.
+layout(binding = preparedParametersUnit) uniform sampler2DArray preparedParameters;
 #endif
 
 EnvironmentFrame environmentFrame(TangentFrame frame) {
@@ -21,14 +22,16 @@ vec3 nodeAt(int index, EnvironmentFrame frame, out vec3 light) {
 }
 
 // What one layer shows; each colour channel of a fit in RGB has lobes of its own.
-vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view, EnvironmentFrame frame) {
+vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view,
+                      EnvironmentFrame frame) {
 #ifdef ENVIRONMENT_LAYERS
-  layer = fetchLayerFrom(preparedNumbers, place, index);
+  layer = fetchLayerFrom(preparedParameters, place, index);
 #endif
   vec3 value = underEnvironment(texel.channels[0], layer.channels[0], view, frame);
   for (int c = 1; c < COLOR_CHANNELS; ++c)
     value[c] = underEnvironment(texel.channels[c], layer.channels[c], view, frame)[c];
-  return environmentIntensity.w * environmentIntensity.rgb * value * texel.channels[0].texels[0].rgb;
+  return environmentIntensity.w * environmentIntensity.rgb * value *
+         texel.channels[0].texels[0].rgb;
 }
 
 #else

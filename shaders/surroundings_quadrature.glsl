@@ -1,7 +1,9 @@
-// An environment that is summed over the measured lights, where no formula integrates it (LightQuadrature).
+// An environment that is summed over the measured lights, where no formula integrates it
+// (LightQuadrature).
 #ifdef ENVIRONMENT
 
-layout(binding = quadratureUnit) uniform sampler2DRect quadrature;  // xyz: a measured light; w: its share of the integral
+// xyz: a measured light; w: its share of the integral
+layout(binding = quadratureUnit) uniform sampler2DRect quadrature;
 
 EnvironmentFrame environmentFrame(TangentFrame frame) {
   EnvironmentFrame turned;
@@ -21,7 +23,8 @@ vec3 nodeAt(int index, EnvironmentFrame frame, out vec3 light) {
   return environmentIntensity.w * environmentIntensity.rgb * (node.w / light.z) * average;
 }
 
-vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view, EnvironmentFrame frame) {
+vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view,
+                      EnvironmentFrame frame) {
   return vec3(0.0);
 }
 

@@ -6,9 +6,10 @@ struct TangentFrame {
   vec3 n;
 };
 
-// Orthonormal, but not always right-handed (mirrored texture coordinates, back faces): go into it with dot
-// products only. A tangent that is zero or along the normal is replaced by some other one. On a back face only
-// the normal turns, since from behind the texture is seen in the mirror, and its relief with it.
+// Orthonormal, but not always right-handed (mirrored texture coordinates, back faces): go into it
+// with dot products only. A tangent that is zero or along the normal is replaced by some other one.
+// On a back face only the normal turns, since from behind the texture is seen in the mirror, and
+// its relief with it.
 TangentFrame tangentFrame(vec3 normal, vec3 tangent, float handedness, bool backFace) {
   TangentFrame frame;
   frame.n = normal * inversesqrt(max(dot(normal, normal), 1e-30));

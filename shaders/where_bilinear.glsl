@@ -1,4 +1,5 @@
-// Where a field is looked up, the four texels around a place: lobes cannot be mixed, what they give can.
+// Where a field is looked up, the four texels around a place: lobes cannot be mixed, what they give
+// can.
 
 const int texelCount = 4;
 

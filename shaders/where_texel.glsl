@@ -1,4 +1,5 @@
-// Where a field is looked up, the nearest texel. A *where* stage says how many texels are shaded and which ones.
+// Where a field is looked up, the nearest texel. A *where* stage says how many texels are shaded
+// and which ones.
 
 const int texelCount = 1;
 

@@ -20,7 +20,8 @@ int integer(GLenum name) {
 }
 
 bool isWrong(GLenum source, GLenum type, GLenum severity) {
-  if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return false;  // ProgramChunk reports these, with their file
+  // ProgramChunk reports these, with their file
+  if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return false;
   return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
          severity == GL_DEBUG_SEVERITY_HIGH;
 }

@@ -46,7 +46,8 @@ void setEnabled(GLenum name, bool enabled) {
   (enabled ? glEnable : glDisable)(name);
 }
 
-// Values of any kind are kept as doubles, which hold every name, enumerator and float of GL exactly.
+// Values of any kind are kept as doubles, which hold every name, enumerator and float of GL
+// exactly.
 using Values = std::array<GLdouble, 2>;
 
 GLenum enumOf(GLdouble value) {
@@ -106,7 +107,8 @@ constexpr Setting kSettings[] = {
     {{GL_PACK_SWAP_BYTES}, {}, setPixelStore<GL_PACK_SWAP_BYTES>},
 };
 
-// A compatibility context can have another mode for back faces; in a core context only one is given.
+// A compatibility context can have another mode for back faces; in a core context only one is
+// given.
 void setPolygonMode(const std::array<GLint, 2>& modes) {
   if (modes[1] == 0 || modes[1] == modes[0]) {
     glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(modes[0]));

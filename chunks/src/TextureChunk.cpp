@@ -38,18 +38,19 @@ struct Texels {
   int height = 0;
   int layers = 0;
   std::vector<const void*> levels;
-  std::vector<std::uint8_t> expanded;  ///< what `levels` points to where the image had to be converted
+  /// what `levels` points to where the image had to be converted
+  std::vector<std::uint8_t> expanded;
 };
 
 GLenum target(TextureShape shape) {
   switch (shape) {
-    case TextureShape::Flat:
+    case TextureShape::TwoDimensional:
       return GL_TEXTURE_2D;
     case TextureShape::Array:
       return GL_TEXTURE_2D_ARRAY;
     case TextureShape::Rectangle:
       return GL_TEXTURE_RECTANGLE;
-    case TextureShape::Volume:
+    case TextureShape::ThreeDimensional:
       return GL_TEXTURE_3D;
     case TextureShape::Cube:
       return GL_TEXTURE_CUBE_MAP;
@@ -57,8 +58,8 @@ GLenum target(TextureShape shape) {
   return GL_NONE;
 }
 
-bool isFlat(TextureShape shape) {
-  return shape == TextureShape::Flat || shape == TextureShape::Rectangle;
+bool isTwoDimensional(TextureShape shape) {
+  return shape == TextureShape::TwoDimensional || shape == TextureShape::Rectangle;
 }
 
 /// Grey, or grey and alpha, as RGB, or RGBA.
@@ -124,7 +125,7 @@ bool isEmpty(const TextureImage& image) {
 /// What the shape asks of the image; a caller who breaks it could only get a wrong picture.
 void expectLayersFit(const TextureOptions& options, const auto& image) {
   WEFT_EXPECT(!options.srgb, "float images are linear");
-  WEFT_EXPECT(!isFlat(options.shape) || image.layers() == 1, "a flat texture has one layer");
+  WEFT_EXPECT(!isTwoDimensional(options.shape) || image.layers() == 1, "a 2D texture has one layer");
   WEFT_EXPECT(options.shape != TextureShape::Cube || (image.layers() == 6 && image.width() == image.height()),
               "a cube texture has six square layers");
 }
@@ -156,7 +157,7 @@ void expectFits(const TextureOptions& options, const WideImage& image) {
 int levelsOf(const TextureOptions& options, const Texels& texels) {
   if (options.filter != TextureFilter::Mipmapped) return static_cast<int>(texels.levels.size());
   int size = std::max(texels.width, texels.height);
-  if (options.shape == TextureShape::Volume) size = std::max(size, texels.layers);
+  if (options.shape == TextureShape::ThreeDimensional) size = std::max(size, texels.layers);
   return static_cast<int>(std::bit_width(static_cast<unsigned>(size)));
 }
 
@@ -167,7 +168,7 @@ bool fits(GLContext& context, TextureShape shape, const Texels& texels) {
   int layers = 1;
   if (shape == TextureShape::Array) layers = limits.textureLayers;
   if (shape == TextureShape::Rectangle) size = limits.rectangleSize;
-  if (shape == TextureShape::Volume) size = layers = limits.volumeSize;
+  if (shape == TextureShape::ThreeDimensional) size = layers = limits.volumeSize;
   if (shape == TextureShape::Cube) size = limits.cubeSize, layers = 6;
   if (texels.width <= size && texels.height <= size && texels.layers <= layers) return true;
   context.report(
@@ -182,7 +183,7 @@ GLTexture makeTexture(const TextureLayout& layout, const TextureOptions& options
   GLuint name = 0;
   glCreateTextures(target(options.shape), 1, &name);
   // A cube's six layers are not said: it always has them.
-  if (isFlat(options.shape) || options.shape == TextureShape::Cube)
+  if (isTwoDimensional(options.shape) || options.shape == TextureShape::Cube)
     glTextureStorage2D(name, layout.levels, layout.storage, layout.width, layout.height);
   else
     glTextureStorage3D(name, layout.levels, layout.storage, layout.width, layout.height, layout.layers);
@@ -195,7 +196,7 @@ void upload(GLuint texture, const TextureOptions& options, const Texels& texels,
   const int width = std::max(texels.width >> level, 1), height = std::max(texels.height >> level, 1);
   const auto [storage, channels, type] = texels.format;
   const void* values = texels.levels[static_cast<std::size_t>(level)];
-  if (isFlat(options.shape))
+  if (isTwoDimensional(options.shape))
     glTextureSubImage2D(texture, level, 0, 0, width, height, channels, type, values);
   else
     glTextureSubImage3D(texture, level, 0, 0, 0, width, height, texels.layers, channels, type, values);

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An interruption concerns the whole process, so what it has to remove is known to the whole process.
+// An interruption concerns the whole process, so what it has to remove is known to the whole
+// process.
 struct Pending {
   std::mutex mutex;
   std::set<const LockedTemporary*> temporaries;

@@ -150,7 +150,8 @@ FileKind fileKind(std::span<const std::uint8_t> firstBytes) {
 
 FileKind fileKind(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return FileKind::Unknown;  // a FIFO would wait
+  // a FIFO would wait
+  if (!std::filesystem::is_regular_file(file, error)) return FileKind::Unknown;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return FileKind::Unknown;
   std::vector<std::uint8_t> bytes(kFileKindBytes);

@@ -24,13 +24,15 @@ double inCircle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 p) {
   return glm::dot(a, a) * cross(b, c) - glm::dot(b, b) * cross(a, c) + glm::dot(c, c) * cross(a, b);
 }
 
-// Rings of equal polar angle and regular azimuths make many cocircular quadruples. A shear and stretch far
-// below the measuring accuracy, the same for every input, decides them all consistently.
+// Rings of equal polar angle and regular azimuths make many cocircular quadruples. A shear and
+// stretch far below the measuring accuracy, the same for every input, decides them all
+// consistently.
 glm::dvec2 withoutTies(glm::dvec2 p) {
   return {p.x + 1e-7 * p.y + 3e-7 * p.x * p.x, p.y + 2e-7 * p.x * p.y};
 }
 
-// Bowyer and Watson's incremental insertion; quadratic, for the few hundred directions of a measurement.
+// Bowyer and Watson's incremental insertion; quadratic, for the few hundred directions of a
+// measurement.
 std::vector<Corners> delaunay(const std::vector<glm::dvec2>& input) {
   std::vector<glm::dvec2> points;
   for (glm::dvec2 p : input) points.push_back(withoutTies(p));
@@ -73,7 +75,8 @@ float weightRow(const HemisphereTriangulation::Triangle& triangle, std::size_t k
   return glm::dot(triangle.weightRows[k], glm::vec3(p, 1.0f));
 }
 
-// A point outside of a hull edge slides towards the pole until the weight of the opposite corner is 0.
+// A point outside of a hull edge slides towards the pole until the weight of the opposite corner is
+// 0.
 glm::vec2 slideToHull(const HemisphereTriangulation::Triangle& triangle, glm::vec2 p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::vec3 row = triangle.weightRows[k];

@@ -34,7 +34,8 @@ std::string hostName() {
 bool isHeld(const Descriptor& lock, bool withoutLocks) {
   struct stat status {};
   if (flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || !withoutLocks)) return false;
-  return fstat(lock.number(), &status) == 0 && status.st_nlink > 0;  // nobody has removed it in between
+  // nobody has removed it in between
+  return fstat(lock.number(), &status) == 0 && status.st_nlink > 0;
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder, std::string_view prefix, std::string_view suffix) {

@@ -116,8 +116,8 @@ Result<void> OutputTarget::finish(const fs::path& temporary) const {
   const Descriptor file(open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.isOpen()) return failed("the output cannot be written: " + reason());
   if (replaced_) {
-    // Others may own what is replaced; only its mode is a promise. A new owner takes setuid away, so it comes
-    // first.
+    // Others may own what is replaced; only its mode is a promise. A new owner takes setuid away,
+    // so it comes first.
     const bool kept = fchown(file.number(), replaced_->st_uid, replaced_->st_gid) == 0;
     if (fchmod(file.number(), replaced_->st_mode & (kept ? 07777 : 0777)) != 0)
       return failed("the mode of the output cannot be kept: " + reason());

@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// Where an output goes when symbolic links are followed: a regular file, there already or not, or something
-/// that is written through and never replaced, as pipes and terminals are.
+/// Where an output goes when symbolic links are followed: a regular file, there already or not, or
+/// something that is written through and never replaced, as pipes and terminals are.
 class OutputTarget {
  public:
   /// Fails for folders, disks, sockets, files that must not be written and missing folders.
@@ -19,13 +19,14 @@ class OutputTarget {
   /// What messages call it.
   std::string name() const { return wanted_.string(); }
   bool isStream() const { return stream_; }
-  /// Where a temporary of it belongs: beside it, or for a stream the system's folder for such files.
+  /// Where a temporary of it belongs: beside it, or for a stream the system's folder for such
+  /// files.
   Result<std::filesystem::path> temporaryFolder() const;
   /// Permissions of a temporary, which let nobody read what they may not read in its place.
   mode_t temporaryPermissions() const { return replaced_ ? (replaced_->st_mode & 0666) | 0600 : 0666; }
 
-  /// Gives a finished temporary the mode and, where that is allowed, the owner of what it replaces, and waits
-  /// until the disk has it.
+  /// Gives a finished temporary the mode and, where that is allowed, the owner of what it replaces,
+  /// and waits until the disk has it.
   Result<void> finish(const std::filesystem::path& temporary) const;
   /// Puts a temporary beside it into its place; syncFolder() makes that last.
   Result<void> replaceBy(const std::filesystem::path& temporary) const;
@@ -41,7 +42,8 @@ class OutputTarget {
 
   std::filesystem::path wanted_;
   std::filesystem::path path_;
-  std::optional<int> descriptor_;        ///< of a stream that this process has open, as /dev/stdout is
+  /// of a stream that this process has open, as /dev/stdout is
+  std::optional<int> descriptor_;
   std::optional<struct stat> replaced_;  ///< the regular file that is there
   bool stream_ = false;
 };

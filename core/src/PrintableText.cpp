@@ -7,7 +7,8 @@
 namespace weft {
 namespace {
 
-/// The smallest code point that needs a sequence of so many bytes; shorter ones must not be written so.
+/// The smallest code point that needs a sequence of so many bytes; shorter ones must not be written
+/// so.
 constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
 
 std::size_t sequenceBytes(unsigned char first) {

@@ -12,7 +12,8 @@ namespace weft {
 namespace {
 
 constexpr float kLargestUvScale = 1e6f;  // beyond, a float cannot tell texels apart
-// Of coordinates and colours: the squares of distances, times colours, stay within the range of a float.
+// Of coordinates and colours: the squares of distances, times colours, stay within the range of a
+// float.
 constexpr double kLargestNumber = 1e12;
 constexpr double kShortestLook = 1e-15;  // as small as scenes may be
 
@@ -116,7 +117,7 @@ void SceneArguments::addTo(CLI::App& options) {
                      "middle lies along -Z");
   options
       .add_option("--env-lobes", environmentLobes,
-                  "how lobes gather its light: fitted, or paper, as Meseth et al. do, for comparison")
+                  "how lobes gather its light: fitted, or paper, as [Meseth 2004] do, for comparison")
       ->check(CLI::IsMember({"fitted", "paper"}))
       ->capture_default_str();
   options.add_option("--time", time, "shows the scene so many seconds after the start of its animation");

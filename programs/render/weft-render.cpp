@@ -63,8 +63,8 @@ std::optional<int> sideFrom(const std::string& text) {
   return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
 }
 
-/// "--size WxH", "--size W H" or "--size N", a square, which may have taken the SCENE behind it along; none
-/// for anything else.
+/// "--size WxH", "--size W H" or "--size N", a square, which may have taken the SCENE behind it
+/// along; none for anything else.
 std::optional<Size> readSize(std::vector<std::string> words, std::string& scene) {
   if (const std::size_t cross = words[0].find('x'); cross != std::string::npos) {
     words.insert(words.begin() + 1, words[0].substr(cross + 1));
@@ -185,7 +185,8 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   const bool png = arguments.output.extension() == ".png";
   const bool lit = !sceneOptions->environment.empty();
   const RenderTarget target(kSupersampling * size.width, kSupersampling * size.height,
-                            png && !lit ? Precision::Half : Precision::Float);  // the sun overflows halfs
+                            // the sun overflows halfs
+                            png && !lit ? Precision::Half : Precision::Float);
   if (const auto made = target.prepare(context); !made)
     return fail(fmt::format("with {0} x {0} samples a pixel, {1}", kSupersampling, made.error().what),
                 fmt::format("--size {}x{}", size.width, size.height), made.error().hint);
@@ -213,7 +214,8 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   if (arguments.frames > 0) {
     const RenderTarget timed(size.width, size.height);
     WEFT_TRY_VOID(
-        timeFrames(1, renderer, context, setup.root(), setup.camera(), timed, options));  // makes the target
+        // makes the target
+        timeFrames(1, renderer, context, setup.root(), setup.camera(), timed, options));
     WEFT_TRY(std::vector<double> times,
              timeFrames(arguments.frames, renderer, context, setup.root(), setup.camera(), timed, options));
     report["frames"] = arguments.frames;

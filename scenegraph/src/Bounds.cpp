@@ -28,7 +28,8 @@ double distanceToSegment(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::length(a + place * along);
 }
 
-/// From the origin to the plane of a triangle, if that is where the triangle is nearest; infinity otherwise.
+/// From the origin to the plane of a triangle, if that is where the triangle is nearest; infinity
+/// otherwise.
 double distanceToInside(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const bool above = glm::dot(glm::cross(a, b), normal) > 0.0 && glm::dot(glm::cross(b, c), normal) > 0.0 &&
@@ -138,8 +139,8 @@ Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalField
   const double tangentY = std::tan(0.5 * double{verticalFieldOfView}) / margin;
   const glm::dvec2 tangent(double{aspect} * tangentY, tangentY);
 
-  // A vertex p (camera axes, from the first vertex) is inside for an eye e where |p.x - e.x| <= tangent.x
-  // (e.z
+  // A vertex p (camera axes, from the first vertex) is inside for an eye e where |p.x - e.x| <=
+  // tangent.x (e.z
   // - p.z), and likewise for y: two planes a side, of which the outermost vertices decide.
   std::optional<glm::dvec3> origin;
   glm::dvec2 high(-kInfinity), low(-kInfinity);
@@ -155,8 +156,8 @@ Camera frame(const Node& root, glm::vec3 from, float aspect, float verticalField
   WEFT_EXPECT(origin, "there is nothing to frame");
   const glm::dvec2 distances = 0.5 * (high + low) / tangent;
   const double size = std::max({nearest - farthest, distances.x - farthest, distances.y - farthest});
-  // At least a little in front of what is nearest, which the planes alone do not ask of a line; a point is as
-  // large from anywhere.
+  // At least a little in front of what is nearest, which the planes alone do not ask of a line; a
+  // point is as large from anywhere.
   const double gap = size > 0.0 ? 0.01 * size : 1.0;
   const double eye = std::max({distances.x, distances.y, nearest + gap});
   const glm::dvec3 position = *origin + glm::dvec3(0.5 * (high - low), eye) * toCamera;

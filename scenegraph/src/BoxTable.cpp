@@ -14,13 +14,15 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// How far outside a box may seem to be although it touches the plane: rounding of sums of this size.
+/// How far outside a box may seem to be although it touches the plane: rounding of sums of this
+/// size.
 float rounding(glm::vec4 plane, glm::vec3 center, glm::vec3 extent) {
   const float size = glm::dot(glm::abs(glm::vec3(plane)), glm::abs(center) + extent) + std::abs(plane.w);
   return 8.0f * std::numeric_limits<float>::epsilon() * size;
 }
 
-/// Whether the half-line meets the box; slabs that it is parallel to and in give NaN, which lets it pass.
+/// Whether the half-line meets the box; slabs that it is parallel to and in give NaN, which lets it
+/// pass.
 bool meets(const Ray& ray, const glm::dvec3& center, glm::vec3 extent) {
   // Of the rounding of extents, of places, and of the quotients.
   constexpr double ofExtent = 4.0 * std::numeric_limits<float>::epsilon();

@@ -11,9 +11,9 @@
 
 namespace weft {
 
-/// World-space boxes by number, in blocks of 64 neighbours that have a box around them: what is outside is
-/// mostly found out block by block, and within one by loops that the compiler makes SIMD of. Places are
-/// doubles, and floats once they are relative to an eye.
+/// World-space boxes by number, in blocks of 64 neighbours that have a box around them: what is
+/// outside is mostly found out block by block, and within one by loops that the compiler makes SIMD
+/// of. Places are doubles, and floats once they are relative to an eye.
 ///
 /// Neighbours in number are neighbours in the tree, and mostly in space.
 class BoxTable {
@@ -22,15 +22,16 @@ class BoxTable {
 
   void set(std::uint32_t number, const glm::dvec3& center, glm::vec3 extent);
   void clear(std::uint32_t number);
-  /// Mends the blocks around what set() and clear() changed; to be called before the questions below.
+  /// Mends the blocks around what set() and clear() changed; to be called before the questions
+  /// below.
   void update();
 
   glm::dvec3 center(std::uint32_t number) const {
     const auto& center = blocks_[number / kBlock].center;
     return {center[0][number % kBlock], center[1][number % kBlock], center[2][number % kBlock]};
   }
-  /// Appends the numbers, rising, of the boxes that are not wholly outside one of the planes. Boxes with NaN
-  /// count as inside.
+  /// Appends the numbers, rising, of the boxes that are not wholly outside one of the planes. Boxes
+  /// with NaN count as inside.
   void findInside(const Frustum& frustum, std::vector<std::uint32_t>& numbers) const;
   /// The same of the boxes that the ray meets.
   void findMet(const Ray& ray, std::vector<std::uint32_t>& numbers) const;

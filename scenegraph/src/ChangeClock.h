@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Stamps changes of trees: every look at a tree moves the clock on, so that later changes have later stamps.
-/// One for all trees, since nodes move between them.
+/// Stamps changes of trees: every look at a tree moves the clock on, so that later changes have
+/// later stamps. One for all trees, since nodes move between them.
 inline std::atomic<std::uint64_t> changeClock{1};
 
 }  // namespace weft

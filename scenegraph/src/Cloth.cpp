@@ -10,7 +10,8 @@ namespace {
 constexpr float kSide = 3.0f;
 constexpr float kBallRadius = 0.6f;
 constexpr float kFloor = -kBallRadius;
-constexpr float kThickness = 0.012f;  // kept between cloth and support, more than triangles cut corners
+// kept between cloth and support, more than triangles cut corners
+constexpr float kThickness = 0.012f;
 constexpr int kCells = 64;
 constexpr int kSteps = 480;
 constexpr float kStep = 1.0f / 240.0f;  // seconds
@@ -54,7 +55,8 @@ Grid flatCloth() {
   return cloth;
 }
 
-/// One sweep of position-based dynamics over all threads of a kind (Macklin 2016, XPBD, one sweep a step).
+/// One sweep of position-based dynamics over all threads of a kind (Macklin 2016, XPBD, one sweep a
+/// step).
 void pull(Grid& cloth, const Threads& threads) {
   const float cell = kSide / kCells;
   const float length =
@@ -110,10 +112,11 @@ Grid drape() {
   return cloth;
 }
 
-/// Doubles the cells: the limit of repeating it is the cubic B-spline of the points, smooth enough for
-/// highlights. The border keeps its own curve.
+/// Doubles the cells: the limit of repeating it is the cubic B-spline of the points, smooth enough
+/// for highlights. The border keeps its own curve.
 Grid subdivide(const Grid& coarse) {
-  // One dimension at a time: old points become (1 6 1) / 8 of their neighbours, new ones the middle of two.
+  // One dimension at a time: old points become (1 6 1) / 8 of their neighbours, new ones the middle
+  // of two.
   const auto refined = [](auto at, int last, int k) {
     if (k % 2 == 1) return 0.5f * (at(k / 2) + at(k / 2 + 1));
     if (k == 0 || k / 2 == last) return 1.0f * at(k / 2);

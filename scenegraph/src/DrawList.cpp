@@ -34,8 +34,8 @@ std::uint64_t DrawOrder::key() const {
 }
 
 void DrawList::sort() {
-  // By digits of 8 bits, the lowest first, each pass keeping the order of the one before; digits in which no
-  // two keys differ are left out.
+  // By digits of 8 bits, the lowest first, each pass keeping the order of the one before; digits in
+  // which no two keys differ are left out.
   std::uint64_t differing = 0;
   for (const DrawItem& item : items_) differing |= item.key ^ items_.front().key;
   spare_.resize(items_.size());

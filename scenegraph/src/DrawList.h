@@ -25,8 +25,8 @@ struct DrawOrder {
   std::uint64_t key() const;
 };
 
-/// What a frame draws, in the order that changes the least state: opaque things by program, material, mesh,
-/// then from front to back; then the blended ones from back to front.
+/// What a frame draws, in the order that changes the least state: opaque things by program,
+/// material, mesh, then from front to back; then the blended ones from back to front.
 class DrawList {
  public:
   void clear() { items_.clear(); }

@@ -11,7 +11,8 @@
 
 namespace weft {
 
-/// A node on the way down through a changed tree, and where the branches of its children still stand.
+/// A node on the way down through a changed tree, and where the branches of its children still
+/// stand.
 struct FlatScene::Visit {
   const Node* node = nullptr;
   std::uint32_t entry = 0;  ///< in the new array
@@ -222,7 +223,8 @@ void FlatScene::updateMaterials() {
     used.blended = state.at(BlendSlot) != nullptr;
   }
   if (!std::exchange(materialsChanged_, false)) return;
-  // Numbered in the order of their coming, so that the order of drawing does not depend on addresses.
+  // Numbered in the order of their coming, so that the order of drawing does not depend on
+  // addresses.
   std::vector<const Chunk*> programs;
   for (UsedMaterial& used : materials_.all()) {
     if (!used.material) continue;

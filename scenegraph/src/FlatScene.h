@@ -38,13 +38,14 @@ struct PlacedLOD {
   Level level;  ///< that it hangs below itself
 };
 
-/// The first three rows of a matrix from a mesh, around the middle of its bounds, to the world, around the
-/// eye, as shaders/mesh.vert takes them.
+/// The first three rows of a matrix from a mesh, around the middle of its bounds, to the world,
+/// around the eye, as shaders/mesh.vert takes them.
 struct ModelRows {
   glm::vec4 rows[3];
 };
 
-/// A geometry at one place of the tree. Where the middle of its mesh's bounds lies is the centre of its box.
+/// A geometry at one place of the tree. Where the middle of its mesh's bounds lies is the centre of
+/// its box.
 struct FlatObject {
   ModelRows model;                 ///< not yet moved
   std::uint32_t mesh = kNone;      ///< number in FlatScene::meshes()
@@ -74,12 +75,13 @@ struct UsedMaterial {
   bool blended = false;
 };
 
-/// What a tree shows, as flat tables: objects with their world matrices and boxes, lights, materials, meshes.
+/// What a tree shows, as flat tables: objects with their world matrices and boxes, lights,
+/// materials, meshes.
 ///
-/// It belongs to the root, is shared by all who draw or pick from it, and brought up to date before each such
-/// look, of which each locks it for its duration. The nodes stand in one array in the order of a walk from
-/// the root, each followed by all that is below it, so that a branch without changes is stepped over, or
-/// copied as a whole where nodes came or went.
+/// It belongs to the root, is shared by all who draw or pick from it, and brought up to date before
+/// each such look, of which each locks it for its duration. The nodes stand in one array in the
+/// order of a walk from the root, each followed by all that is below it, so that a branch without
+/// changes is stepped over, or copied as a whole where nodes came or went.
 class FlatScene {
  public:
   explicit FlatScene(const Node& root) : root_(root) {}

@@ -14,13 +14,15 @@ struct LightBlock {
   glm::vec4 place{0.0f};      ///< position; or unit direction towards the light
   glm::vec4 intensity{0.0f};  ///< rgb; w: 1 / range^2
   glm::vec4 cone{0.0f, 0, 0,
-                 1.0f};  ///< the light grows with the square of dot(cone, (from the light, 1)), 0..1
+                 /// the light grows with the square of dot(cone, (from the light, 1)), 0..1
+                 1.0f};
 };
 
 struct FrameBlock {
   glm::mat4 viewProjection{1.0f};
-  glm::vec4 eye{0.0f};     ///< relative to itself: (0, 0, 0, 1), or the direction of an orthographic view
-  glm::vec4 origin{0.0f};  ///< the eye's place in the world
+  /// relative to itself: (0, 0, 0, 1), or the direction of an orthographic view
+  glm::vec4 eye{0.0f};
+  glm::vec4 origin{0.0f};                           ///< the eye's place in the world
   std::array<LightBlock, kMaximumLights> lights{};  ///< the directional ones first
   std::array<glm::vec4, 3> environmentRows{};       ///< from world space to the environment
   glm::vec4 environmentIntensity{0.0f};             ///< rgb; w: EnvironmentLight::scale()

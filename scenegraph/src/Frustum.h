@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// The six planes of what a projection shows, relative to the eye: a point p of the world is inside where
-/// dot(plane.xyz, p - eye) + plane.w >= 0 for all.
+/// The six planes of what a projection shows, relative to the eye: a point p of the world is inside
+/// where dot(plane.xyz, p - eye) + plane.w >= 0 for all.
 struct Frustum {
   glm::dvec3 eye;
   std::array<glm::vec4, 6> planes;

@@ -110,8 +110,8 @@ HeadlessWindow::~HeadlessWindow() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   eglDestroyContext(display_, eglContext_);
-  // The display stays: it is one for the whole process, and ending it would end the contexts of other
-  // windows.
+  // The display stays: it is one for the whole process, and ending it would end the contexts of
+  // other windows.
 }
 
 void HeadlessWindow::makeCurrent() {

@@ -141,7 +141,8 @@ void takeRoom(MeshPool& pool, bool extended, MeshPlace& place) {
   for (auto page = pool.pages.rbegin(); page != pool.pages.rend(); ++page)
     if (auto held = page->lock(); held->extended == extended && takeFrom(std::move(held))) return;
 
-  // Each page is twice the one before, so that few hold the largest scene and a small scene is not charged.
+  // Each page is twice the one before, so that few hold the largest scene and a small scene is not
+  // charged.
   const std::uint32_t usual =
       std::min(kSmallestPage << std::min<std::size_t>(pool.pages.size(), 16), kLargestPage);
   const std::uint32_t vertices = std::max(usual, place.vertexCount);

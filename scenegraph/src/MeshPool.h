@@ -13,8 +13,9 @@ namespace weft {
 
 /// Vertex array binding points and attribute locations of shaders/mesh.vert.
 constexpr GLuint kVertexBinding = 0;
-constexpr GLuint kAbsentBinding = 1;  ///< what meshes without a second texture coordinate or colours have
-constexpr GLuint kModelBinding = 2;   ///< ModelRows, one an instance
+/// what meshes without a second texture coordinate or colours have
+constexpr GLuint kAbsentBinding = 1;
+constexpr GLuint kModelBinding = 2;  ///< ModelRows, one an instance
 constexpr GLuint kModelLocation = 13;
 
 /// A vertex and an index buffer that many meshes share, so that one draw call can draw all of them.
@@ -44,8 +45,9 @@ struct MeshPlace {
   std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
-/// Puts a mesh into the buffers of the context at the first call; one place for all geometries that share it.
-/// Its positions become relative to the middle of its bounds, so that floats suffice wherever that is.
+/// Puts a mesh into the buffers of the context at the first call; one place for all geometries that
+/// share it. Its positions become relative to the middle of its bounds, so that floats suffice
+/// wherever that is.
 const MeshPlace& meshPlace(GLContext& context, const std::shared_ptr<const Mesh>& mesh);
 
 }  // namespace weft

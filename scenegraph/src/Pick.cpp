@@ -20,8 +20,8 @@ struct TriangleHit {
   std::array<double, 3> weights{};  ///< of the corners
 };
 
-/// The corners are relative to the ray's origin. The sign of the volume that an edge spans with the ray turns
-/// exactly when the edge does, so that one of two neighbours is met.
+/// The corners are relative to the ray's origin. The sign of the volume that an edge spans with the
+/// ray turns exactly when the edge does, so that one of two neighbours is met.
 std::optional<TriangleHit> meet(const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners) {
   const auto& [a, b, c] = corners;
   const std::array<double, 3> volumes{glm::dot(direction, glm::cross(b, c)),

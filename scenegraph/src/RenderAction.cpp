@@ -88,7 +88,8 @@ LightBlock blockOf(const PlacedLight& light, const glm::dvec3& eye) {
           glm::vec4(-slope * backwards, -slope * outer)};
 }
 
-/// What is seen from where. Shaders work around the eye, so that floats suffice wherever in the world it is.
+/// What is seen from where. Shaders work around the eye, so that floats suffice wherever in the
+/// world it is.
 struct View {
   View(const Camera& camera, float aspect)
       : place(camera.position()),
@@ -119,7 +120,8 @@ struct FrameNumbers {
 };
 
 void setEnvironment(FrameBlock& block, const EnvironmentLight& environment, const glm::dmat4& toWorld) {
-  // The columns of a rotation are the rows of its inverse; scale does not move what is infinitely far away.
+  // The columns of a rotation are the rows of its inverse; scale does not move what is infinitely
+  // far away.
   for (int i = 0; i < 3; ++i)
     block.environmentRows[static_cast<std::size_t>(i)] = glm::vec4(unitOrZero(glm::dvec3(toWorld[i])), 0.0f);
   block.environmentIntensity = glm::vec4(environment.intensity, environment.scale());
@@ -329,7 +331,8 @@ Result<void> RenderAction::renderInPlace(GLContext& context, const Node& root, c
                                          Encoding encoding) {
   std::array<GLfloat, 4> viewport{};
   glGetFloatv(GL_VIEWPORT, viewport.data());
-  if (viewport[2] == 0.0f || viewport[3] == 0.0f) return {};  // a window can have been made that small
+  // a window can have been made that small
+  if (viewport[2] == 0.0f || viewport[3] == 0.0f) return {};
   const Place place{viewport[2] / viewport[3], encoding, ReflectedPart::All, [] {}, [] {}};
   return renderTo(place, context, root, camera);
 }

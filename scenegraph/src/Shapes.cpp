@@ -12,8 +12,8 @@
 namespace weft {
 namespace {
 
-/// Two triangles for each cell of a grid of vertices in rows, where rows run down and columns to the right as
-/// seen from the front.
+/// Two triangles for each cell of a grid of vertices in rows, where rows run down and columns to
+/// the right as seen from the front.
 std::vector<std::uint32_t> gridIndices(int columns, int rows) {
   std::vector<std::uint32_t> indices;
   for (int row = 0; row < rows; ++row)

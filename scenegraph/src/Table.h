@@ -6,7 +6,8 @@
 
 namespace weft {
 
-/// Things by number; numbers that became free are given again, so that those in use stay close together.
+/// Things by number; numbers that became free are given again, so that those in use stay close
+/// together.
 template <class T>
 class Table {
  public:

@@ -77,7 +77,8 @@ void unshareVertices(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
-/// A triangle's direction of +U, and whether its image is mirrored; +U is 0 where the image has no area.
+/// A triangle's direction of +U, and whether its image is mirrored; +U is 0 where the image has no
+/// area.
 struct ImageAxes {
   glm::vec3 alongU{};
   bool mirrored = false;
@@ -100,7 +101,8 @@ glm::vec3 anyPerpendicular(glm::vec3 normal) {
   return normalizedOr(axis - glm::dot(axis, normal) * normal, {1, 0, 0});
 }
 
-/// The sums of +U at one vertex over the triangles whose image is not mirrored, and over those where it is.
+/// The sums of +U at one vertex over the triangles whose image is not mirrored, and over those
+/// where it is.
 struct TangentSums {
   std::array<glm::vec3, 2> sum{};
   std::array<bool, 2> used{};

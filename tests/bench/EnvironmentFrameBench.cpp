@@ -1,5 +1,5 @@
-// What a frame under an environment costs beside one under a point light: three views, two lobes, 512 x 512.
-// And what comes before: prefiltering, and loading that from the cache.
+// What a frame under an environment costs beside one under a point light: three views, two lobes,
+// 512 x 512. And what comes before: prefiltering, and loading that from the cache.
 //
 //   environment_frame_bench WOOL.rf.exr [FRAMES]
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "weft/io/EnvironmentFile.h"
-#include "weft/materials/ImageBasedLight.h"
+#include "weft/materials/LightFromEnvironment.h"
 #include "weft/scene_io/BTFMaterialLoader.h"
 #include "weft/scenegraph/Geometry.h"
 #include "weft/scenegraph/HeadlessWindow.h"
@@ -87,7 +87,8 @@ Result<void> measure(const char* file, int frames) {
   const RenderTarget target(512, 512);
   Camera camera = Camera::lookAt({0.1f, -0.25f, 0.35f}, {0, 0, 0});
   camera.verticalFieldOfView = 1.2f;
-  for (int frame = -2; frame < frames; ++frame)  // one after the other, so that all see the same disturbances
+  // one after the other, so that all see the same disturbances
+  for (int frame = -2; frame < frames; ++frame)
     for (Setting& setting : settings) {
       const auto start = std::chrono::steady_clock::now();
       WEFT_TRY_VOID(renderer.render(window->context(), *setting.scene, camera, target));

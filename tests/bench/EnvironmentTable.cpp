@@ -1,5 +1,5 @@
-// What the formulas for light from environments cost: pictures of a sphere by each of them, against the true
-// integral over the same fit, and that against the measurement itself.
+// What the formulas for light from environments cost: pictures of a sphere by each of them, against
+// the true integral over the same fit, and that against the measurement itself.
 //
 //   environment_table UBO_WOOL64.zip ENVIRONMENT... (files, or studio, sky)
 

@@ -1,5 +1,5 @@
-// Whether a fit flickers: a camera goes around a draped cloth under an environment in small steps, and
-// pictures of the fit change from frame to frame beside pictures of the measurement itself.
+// Whether a fit flickers: a camera goes around a draped cloth under an environment in small steps,
+// and pictures of the fit change from frame to frame beside pictures of the measurement itself.
 //
 //   environment_turntable UBO_WOOL64.zip ENVIRONMENT... (files, or studio, sky)
 
@@ -27,7 +27,8 @@ constexpr int kSize = 64;
 constexpr int kTexels = 16;  // a side of the crop
 constexpr int kFrames = 31;
 constexpr float kStep = 1.0f;  // degrees
-constexpr int kColumns = 48;   // of the environment; sums over all of its texels are what takes time
+// Of the environment; sums over all of its texels are what takes time.
+constexpr int kColumns = 48;
 constexpr int kRows = 24;
 
 using Shown = std::function<glm::vec3(int x, int y, const glm::mat3& axes, glm::vec3 view)>;
@@ -44,8 +45,8 @@ FloatImage frameAt(const ReferenceRenderer& renderer, float degrees, const Shown
   return renderer.render(shot, material);
 }
 
-/// The mean change of a pixel's displayed luminance between neighbouring frames; of the neighbours that
-/// differ most.
+/// The mean change of a pixel's displayed luminance between neighbouring frames; of the neighbours
+/// that differ most.
 double largestChange(const ReferenceRenderer& renderer, const Shown& shown) {
   const auto displayed = [](const FloatImage& image, int x, int y) {
     const auto rgb = image.texel(x, y);

@@ -1,6 +1,6 @@
-// Texels a second and core that LafSolver fits, and ceres::TinySolver beside it, which starts next to the
-// truth and sees every sample by itself. laf_solver_bench [FILE] [options of Google Benchmark]: synthetic
-// texels, and texels of a measured BTF if one is named.
+// Texels a second and core that LafSolver fits, and ceres::TinySolver beside it, which starts next
+// to the truth and sees every sample by itself. laf_solver_bench [FILE] [options of Google
+// Benchmark]: synthetic texels, and texels of a measured BTF if one is named.
 
 #include <benchmark/benchmark.h>
 

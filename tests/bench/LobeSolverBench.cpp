@@ -1,6 +1,6 @@
-// Small fits a second and core: solveLobes() beside ceres::TinySolver, same problems and starts, each to its
-// own convergence. lobe_solver_bench [FILE] [options of Google Benchmark]: synthetic texels, and texels of a
-// measured BTF if one is named.
+// Small fits a second and core: solveLobes() beside ceres::TinySolver, same problems and starts,
+// each to its own convergence. lobe_solver_bench [FILE] [options of Google Benchmark]: synthetic
+// texels, and texels of a measured BTF if one is named.
 
 #include <benchmark/benchmark.h>
 
@@ -15,8 +15,8 @@ using test::LobeTexels;
 constexpr std::size_t kFits = 65536;
 constexpr int kIterations = 50;
 
-// Texel-views of a measured BTF, each from a broad lobe around the normal and a sharper one towards its
-// brightest light.
+// Texel-views of a measured BTF, each from a broad lobe around the normal and a sharper one towards
+// its brightest light.
 Result<LobeTexels> measuredTexels(const char* file) {
   WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(file));
   const BtfDescription& btf = source->description();

@@ -76,7 +76,8 @@ osg::ref_ptr<osg::Group> sceneOf(const SceneGrid& grid) {
   state.setAttributeAndModes(program);
   state.setAttributeAndModes(new osg::CullFace);
   state.addUniform(new osg::Uniform("image", 0));
-  const glm::vec3 light = SceneGrid::kTowardsLight;  // the camera does not turn: eye space is world space
+  // the camera does not turn: eye space is world space
+  const glm::vec3 light = SceneGrid::kTowardsLight;
   state.addUniform(new osg::Uniform("towardsLight", osg::Vec3(light.x, light.y, light.z)));
 
   std::vector<osg::ref_ptr<osg::Geometry>> geometries;

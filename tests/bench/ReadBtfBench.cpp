@@ -1,7 +1,8 @@
-// How fast a measurement of JPEGs is read, beside the limit: libjpeg-turbo decoding the same bytes from
-// memory on the same number of threads, one decoder a thread, into the same place. read_btf_bench FILE
-// [THREADS [REPEATS]], FILE being a zip of angle-named JPEGs or an .lp beside its JPEGs. Prints MB of decoded
-// pixels a second and the ratio, of the fastest of passes that alternate.
+// How fast a measurement of JPEGs is read, beside the limit: libjpeg-turbo decoding the same bytes
+// from memory on the same number of threads, one decoder a thread, into the same place.
+// read_btf_bench FILE [THREADS [REPEATS]], FILE being a zip of angle-named JPEGs or an .lp beside
+// its JPEGs. Prints MB of decoded pixels a second and the ratio, of the fastest of passes that
+// alternate.
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

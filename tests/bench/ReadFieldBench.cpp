@@ -1,5 +1,5 @@
-// How long a reflectance field file takes to open, to read one view of, to read whole, and to write again:
-// read_field_bench FILE.rf.exr [options of Google Benchmark]
+// How long a reflectance field file takes to open, to read one view of, to read whole, and to write
+// again: read_field_bench FILE.rf.exr [options of Google Benchmark]
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

@@ -12,7 +12,8 @@
 #include "SceneGrid.h"
 #include "WeftScene.h"
 
-// Weft and OpenSceneGraph draw the same scenes in turns, so that both see the same load of the machine.
+// Weft and OpenSceneGraph draw the same scenes in turns, so that both see the same load of the
+// machine.
 
 namespace weft::bench {
 
@@ -119,9 +120,9 @@ int main(int argc, char** argv) {
   std::string only;
   app.add_option("--only", only, "measures only lines that contain this text");
   CLI11_PARSE(app, argc, argv);
-  // Once a process has freed some large block, as any that loads pictures, glibc no longer hands what
-  // llvmpipe frees after a frame back to the system. Without, it depends on the layout of the heap which side
-  // pays for that.
+  // Once a process has freed some large block, as any that loads pictures, glibc no longer hands
+  // what llvmpipe frees after a frame back to the system. Without, it depends on the layout of the
+  // heap which side pays for that.
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
   return weft::bench::run(rounds, only);
 }

@@ -32,7 +32,8 @@ inline Mesh makeBox(glm::vec3 size) {
   return mesh;
 }
 
-/// 100 x 100 transformed boxes in a plane with textured materials mixed at random: what both sides draw.
+/// 100 x 100 transformed boxes in a plane with textured materials mixed at random: what both sides
+/// draw.
 class SceneGrid {
  public:
   static constexpr int kSide = 100;
@@ -81,8 +82,8 @@ class SceneGrid {
   std::vector<Item> items;
 };
 
-/// Milliseconds by the clock, and of processor time on all threads, which other work on the machine disturbs
-/// less.
+/// Milliseconds by the clock, and of processor time on all threads, which other work on the machine
+/// disturbs less.
 struct FrameTime {
   double clock;
   double processor;

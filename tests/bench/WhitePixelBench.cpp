@@ -1,5 +1,6 @@
-// Hunts white pixels (paper M 5.3): values of a fitted field that are not finite, or exceed 1.5 times the
-// texel's largest measured luminance in that view, for random lights of the whole hemisphere.
+// Hunts white pixels ([Meseth 2004] 5.3): values of a fitted field that are not finite, or exceed
+// 1.5 times the texel's largest measured luminance in that view, for random lights of the whole
+// hemisphere.
 //
 //     white_pixel_bench INPUT FIELD.rf.exr [EVALUATIONS]
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// What programs leave and answer when they are ended, or when nobody listens. tests/faults/run does more of
-// it, and longer.
+// What programs leave and answer when they are ended, or when nobody listens. tests/faults/run does
+// more of it, and longer.
 
 #include <gmock/gmock.h>
 

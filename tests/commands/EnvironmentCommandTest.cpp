@@ -54,7 +54,7 @@ TEST_F(EnvironmentCommand, LightsExposesAndWarns) {
   ASSERT_EQ(render({"--env", environment, "--exposure", "1", "--tone-map", "soft", "--quiet"}).exitCode, 0);
   EXPECT_NEAR(valueOf(readExr(output)).at(20, 15, red), 0.9f, 0.01f);
   ASSERT_EQ(render({"--env", environment, "--show", "specular", "--env-lobes", "paper"}).exitCode, 0);
-  EXPECT_EQ(valueOf(readExr(output)).at(20, 15, red), 0.0f);  // a matt sphere
+  EXPECT_EQ(valueOf(readExr(output)).at(20, 15, red), 0.0f);  // a diffuse sphere
 }
 
 TEST_F(EnvironmentCommand, FieldsWithoutAFormulaForEnvironmentsAreSlowWhichIsSaid) {

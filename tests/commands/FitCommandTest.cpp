@@ -84,8 +84,8 @@ TEST(FitCommand, SeveralProcessesWriteTheSameBytes) {
   const fs::path zip = clothZip(folder);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  // OpenMPI leaks from modules that it has unloaded, which no suppression can name: leaks are told but do not
-  // count here.
+  // OpenMPI leaks from modules that it has unloaded, which no suppression can name: leaks are told
+  // but do not count here.
   setenv("LSAN_OPTIONS", "exitcode=0", 1);
   const fs::path alone = folder / "alone.rf.exr";
   const fs::path together = folder / "together.rf.exr";

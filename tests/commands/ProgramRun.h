@@ -12,7 +12,8 @@ struct ProgramRun {
   std::string err;
 };
 
-/// Runs a program built here ("weft-info"), or any other by its absolute path, and waits for its end.
+/// Runs a program built here ("weft-info"), or any other by its absolute path, and waits for its
+/// end.
 ProgramRun runProgram(const std::string& name, const std::vector<std::string>& arguments);
 
 }  // namespace weft::test

@@ -1,4 +1,5 @@
-// How much memory a loaded material keeps: a program of its own, since it counts every operator new.
+// How much memory a loaded material keeps: a program of its own, since it counts every operator
+// new.
 #include <gtest/gtest.h>
 #include <malloc.h>
 

@@ -57,12 +57,13 @@ struct Frame {
 Frame frameSeenFrom(glm::vec3 view) {
   const glm::vec3 other =
       glm::normalize(glm::cross(view, std::abs(view.x) < 0.8f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
-  const glm::mat3 local(other, glm::cross(view, other), view);  // tangent space: to X, Y, Z of the world
+  // tangent space: to X, Y, Z of the world
+  const glm::mat3 local(other, glm::cross(view, other), view);
   return {glm::transpose(local)};
 }
 
-// The square that fills the picture, shaded as if its surface were turned: every view at every pixel without
-// perspective.
+// The square that fills the picture, shaded as if its surface were turned: every view at every
+// pixel without perspective.
 std::shared_ptr<Mesh> squareWithFrame(const Frame& frame) {
   auto mesh = square();
   mesh->normals.assign(4, frame.axes[2]);
@@ -148,7 +149,8 @@ class GpuAgainstCpu : public BTFMaterialTest, public testing::WithParamInterface
 };
 
 TEST_P(GpuAgainstCpu, AgreeOnMadeUpNumbers) {
-  // Exponents below 1, which fits never have, are so steep where a lobe ends that a pixel may differ there.
+  // Exponents below 1, which fits never have, are so steep where a lobe ends that a pixel may
+  // differ there.
   expectAgreement(std::make_shared<const ReflectanceField>(unevenField(GetParam(), 8, 8)), 1e-4);
 }
 

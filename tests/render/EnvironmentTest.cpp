@@ -14,8 +14,8 @@
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/EnvironmentFile.h"
 #include "weft/materials/BTFMaterial.h"
-#include "weft/materials/ImageBasedLight.h"
 #include "weft/materials/LambertMaterial.h"
+#include "weft/materials/LightFromEnvironment.h"
 #include "weft/materials/PBRMaterial.h"
 #include "weft/scenegraph/Light.h"
 #include "weft/scenegraph/Shapes.h"
@@ -24,8 +24,8 @@
 namespace weft::test {
 namespace {
 
-/// Glossy and coloured, every view and light another value. One texel, because rays and pixels disagree about
-/// where one ends.
+/// Glossy and coloured, every view and light another value. One texel, because rays and pixels
+/// disagree about where one ends.
 std::shared_ptr<const ReflectanceField> unevenField(const ModelDescription& model, bool cosineInModel = false,
                                                     bool stored = false) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) {
@@ -90,8 +90,8 @@ class EnvironmentTest : public GlTest {
   std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>(makeSphere(32));
 };
 
-/// Differences relative to max(reference, 5 % of the picture's mean), over the pixels that `expected` covers;
-/// as models.md asks.
+/// Differences relative to max(reference, 5 % of the picture's mean), over the pixels that
+/// `expected` covers; as models.md asks.
 struct Difference {
   double mean = 0.0, maximum = 0.0;
 };
@@ -126,8 +126,8 @@ struct FitKind {
   bool stored = false;
 };
 
-// The models of the list: those with the standard of their options and a formula for environments, or the
-// rest. A PTM is of one view, and its formula is that of `rfp`.
+// The models of the list: those with the standard of their options and a formula for environments,
+// or the rest. A PTM is of one view, and its formula is that of `rfp`.
 std::vector<FitKind> kindsOf(bool usual) {
   const ModelRegistry registry = ModelRegistry::builtin();
   std::vector<FitKind> kinds;
@@ -219,7 +219,7 @@ TEST_F(EnvironmentTest, GltfsMaterialShowsTheSplitSum) {
       const EnvironmentReference::Light seen(reference, axes, LobeMethod::True);
       const glm::vec3 n(0, 0, 1);
       const float entering = 1.0f - seen.glossyShare(n, view, roughness, 0.04f);
-      const glm::vec3 dielectric = entering * base * seen.matt(n) + seen.glossy(n, view, roughness, 0.04f);
+      const glm::vec3 dielectric = entering * base * seen.diffuse(n) + seen.glossy(n, view, roughness, 0.04f);
       glm::vec3 metal;
       for (int c = 0; c < 3; ++c) metal[c] = seen.glossy(n, view, roughness, base[c])[c];
       return 0.5f * (dielectric + metal);
@@ -231,7 +231,8 @@ TEST_F(EnvironmentTest, GltfsMaterialShowsTheSplitSum) {
 }
 
 void expectWhite(const FloatImage& picture, float tolerance) {
-  const auto [lowest, highest] = std::ranges::minmax(picture.values());  // background and alpha are 1, too
+  // background and alpha are 1, too
+  const auto [lowest, highest] = std::ranges::minmax(picture.values());
   EXPECT_GE(lowest, 1.0f - tolerance);
   EXPECT_LE(highest, 1.0f + tolerance);
 }
@@ -253,7 +254,8 @@ TEST_F(EnvironmentTest, WhiteInWhiteIsInvisible) {
       if (kind.stored) options.space = FitSpace::Stored;
       const auto field =
           std::make_shared<const ReflectanceField>(valueOf(fitReflectanceField(source, options)).field);
-      // A bump map mirrors what dielectrics do, which its fit makes up for under the measured lights alone.
+      // A bump map mirrors what dielectrics do, which its fit makes up for under the measured
+      // lights alone.
       const float tolerance = kind.model.name == "bump" ? 0.025f : 0.005f;
       expectWhite(drawn(valueOf(BTFMaterial::create(field)), light), tolerance);
     }
@@ -273,7 +275,8 @@ FloatImage sumOf(FloatImage a, const FloatImage& b) {
   return a;
 }
 
-/// The same light from everywhere, which needs no filtering. Its moments are not those of a surface.
+/// The same light from everywhere, which needs no filtering. Its moments are not those of a
+/// surface.
 std::shared_ptr<EnvironmentLight> evenLight() {
   using P = PrefilteredEnvironment;
   const auto ones = [](OctahedralMap map, int layers) {
@@ -321,7 +324,8 @@ TEST_F(EnvironmentTest, DiffuseAndSpecularAddUpAndPointLightsToo) {
   }
 }
 
-// Each pixel of the background shows the direction in which it looks, whatever the projection and the turn.
+// Each pixel of the background shows the direction in which it looks, whatever the projection and
+// the turn.
 TEST_F(EnvironmentTest, TheBackgroundLiesWhereItsLightComesFrom) {
   FloatImage picture(256, 128, {"R", "G", "B"});
   for (int y = 0; y < 128; ++y)

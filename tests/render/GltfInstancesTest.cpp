@@ -19,7 +19,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A triangle with instances; the accessors are 0: positions, then those of `instances`, in their order.
+/// A triangle with instances; the accessors are 0: positions, then those of `instances`, in their
+/// order.
 Json instancedFile(const std::vector<std::string>& names, const std::vector<std::vector<float>>& numbers) {
   test::GltfText text;
   text.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
@@ -76,7 +77,8 @@ TEST(GltfInstances, OfDifferentLengthsOrBrokenAreRefused) {
   EXPECT_THAT(failureOfGltf(file), HasSubstr("accessor 7"));
 }
 
-// ---- One mesh for many ------------------------------------------------------------------------------------
+// ---- One mesh for many
+// ------------------------------------------------------------------------------------
 
 TEST(GltfMeshes, AreMadeOnceForAllMaterialsAndNodes) {
   Json file = test::triangleGltf();
@@ -141,7 +143,8 @@ TEST(GltfMeshes, HoldTheVerticesThatTheirIndicesUse) {
   EXPECT_EQ(drawn.at(1).mesh->positions[2], glm::vec3(999, 999 * 999, 0));
 }
 
-// ---- Zeros ------------------------------------------------------------------------------------------------
+// ---- Zeros
+// ------------------------------------------------------------------------------------------------
 
 TEST(GltfZeros, AnAccessorWithoutBytesIsZeros) {
   test::GltfText text;
@@ -163,7 +166,8 @@ TEST(GltfZeros, AnAccessorWithoutBytesIsZeros) {
   EXPECT_THAT(drawnIn(loadedGltf(file)).at(1).mesh->indices.size(), 3u);
 }
 
-// ---- What a file may claim --------------------------------------------------------------------------------
+// ---- What a file may claim
+// --------------------------------------------------------------------------------
 
 /// Refused with the file, and because of what it would take.
 testing::Matcher<std::string> isTooLarge() {

@@ -48,8 +48,8 @@ struct Hills {
   }
 };
 
-/// Corners of triangles, positions and texture coordinates, each triangle from its smallest corner on,
-/// sorted: equal for the same triangles in any order.
+/// Corners of triangles, positions and texture coordinates, each triangle from its smallest corner
+/// on, sorted: equal for the same triangles in any order.
 std::vector<std::array<std::array<float, 5>, 3>> trianglesOf(const std::vector<glm::vec3>& positions,
                                                              const std::vector<glm::vec2>& texcoords,
                                                              const std::vector<std::uint32_t>& indices) {

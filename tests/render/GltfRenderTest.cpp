@@ -140,9 +140,11 @@ TEST_F(GltfRender, ColoursAreSrgbWhateverThePngSays) {
 }
 
 TEST_F(GltfRender, ShowsTheSameThroughANodeThatMirrorsAMirroredMesh) {
-  // x mirrored in the positions, and back again by the node: the winding turns twice, the image stays.
+  // x mirrored in the positions, and back again by the node: the winding turns twice, the image
+  // stays.
   std::vector<std::uint8_t> bytes = test::planeBuffer().bytes();
-  for (std::size_t vertex = 0; vertex < 4; ++vertex) bytes[vertex * 12 + 3] ^= 0x80;  // the sign of x
+  // the sign of x
+  for (std::size_t vertex = 0; vertex < 4; ++vertex) bytes[vertex * 12 + 3] ^= 0x80;
   const std::vector<std::uint16_t> indices{0, 3, 2, 0, 1, 3};
   std::memcpy(bytes.data() + 128, indices.data(), 12);
   test::BufferBytes buffer;

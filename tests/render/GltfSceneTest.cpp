@@ -84,7 +84,8 @@ PBROptions pbrOf(const std::string& material) {
   return pbrOf(loaded(planeGltf(material)));
 }
 
-// ---- Primitives -------------------------------------------------------------------------------------------
+// ---- Primitives
+// -------------------------------------------------------------------------------------------
 
 const std::vector<float> kPentagon{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 0.5f, 0};
 
@@ -144,7 +145,8 @@ TEST(GltfScene, RefusesPrimitivesThatAreNotWhole) {
         HasSubstr(message));
 }
 
-// ---- Accessors --------------------------------------------------------------------------------------------
+// ---- Accessors
+// --------------------------------------------------------------------------------------------
 
 std::string triangle(int positions, const std::string& attributes = "") {
   return R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
@@ -199,7 +201,8 @@ TEST(GltfScene, ReadsVertexColorsWithAndWithoutAlpha) {
   EXPECT_THAT(drawnIn(loaded(file.text(triangle(positions)))).at(0).mesh->colors, IsEmpty());
 }
 
-// ---- Materials --------------------------------------------------------------------------------------------
+// ---- Materials
+// --------------------------------------------------------------------------------------------
 
 TEST(GltfScene, ReadsTheFactorsOfAMaterial) {
   const PBROptions read = pbrOf(
@@ -231,7 +234,8 @@ TEST(GltfScene, ReadsTheFactorsOfAMaterial) {
   EXPECT_EQ(pbrOf(R"({"alphaMode":"BLEND"})").alphaMode, AlphaMode::Blend);
 }
 
-/// The plane with a second set of texture coordinates, those of its corners mirrored, and a picture.
+/// The plane with a second set of texture coordinates, those of its corners mirrored, and a
+/// picture.
 std::filesystem::path texturedPlane(const std::string& material, glm::vec4 tangent = {1, 0, 0, 1}) {
   GltfText file;
   file.add<float>({-0.5f, 0.5f, 0, 0.5f, 0.5f, 0, -0.5f, -0.5f, 0, 0.5f, -0.5f, 0}, "VEC3");
@@ -317,7 +321,8 @@ TEST(GltfScene, PlacesReflectanceFieldsAndTurnsTheirFrame) {
   expectOwnFrame(meshWith(R"(,"extensions":{"KHR_texture_transform":{"rotation":2,"scale":[1,-1]}})"));
 }
 
-// ---- Poses ------------------------------------------------------------------------------------------------
+// ---- Poses
+// ------------------------------------------------------------------------------------------------
 
 /// A triangle that one animation of one channel moves.
 std::string animated(const std::string& path, const std::string& interpolation,
@@ -456,7 +461,8 @@ TEST(GltfScene, SkinsMeshesInTheWorld) {
   EXPECT_THAT(failure(skinned("{}", "[1,2,1]")), HasSubstr("less matrices than joints"));
 }
 
-// ---- Data and hooks ---------------------------------------------------------------------------------------
+// ---- Data and hooks
+// ---------------------------------------------------------------------------------------
 
 const std::string kForeign = replaced(
     replaced(planeGltf(R"({"name":"base","extras":{"shop":7},"extensions":{"ACME_paint":{"coats":2}}})"),
@@ -523,7 +529,8 @@ TEST(GltfScene, LetsTheProgramMakeMaterials) {
   EXPECT_THAT(failure(kForeign, options), HasSubstr("no paint left"));
 }
 
-// ---- Writing the extension --------------------------------------------------------------------------------
+// ---- Writing the extension
+// --------------------------------------------------------------------------------
 
 std::string textOf(const std::filesystem::path& path) {
   std::stringstream text;
@@ -590,7 +597,8 @@ TEST(BtfExtension, RefusesWhatItCannotKeep) {
 // ---- Damaged and other people's files
 // ---------------------------------------------------------------------------------
 
-/// A morphed, skinned and animated strip with sparse positions, quantised colours and a placed texture.
+/// A morphed, skinned and animated strip with sparse positions, quantised colours and a placed
+/// texture.
 std::string richScene() {
   GltfText file;
   const int base = file.addView(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});

@@ -18,8 +18,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A file that has every member that Weft reads; it need not be drawn well. Numbers without a point must be
-/// whole.
+/// A file that has every member that Weft reads; it need not be drawn well. Numbers without a point
+/// must be whole.
 Json fullFile() {
   test::GltfText text;
   text.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");

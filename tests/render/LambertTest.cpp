@@ -121,7 +121,8 @@ TEST_F(LambertTest, MirroredThingsKeepTheirFrontFaces) {
 }
 
 TEST_F(LambertTest, NormalsStayPerpendicularUnderUnevenScaling) {
-  // Turned by 45 degrees about Y, then stretched along Z: the plane's normal is (2, 0, 1) / sqrt(5).
+  // Turned by 45 degrees about Y, then stretched along Z: the plane's normal is (2, 0, 1) /
+  // sqrt(5).
   const glm::mat4 model = glm::scale(glm::mat4(1.0f), glm::vec3(1, 1, 2)) *
                           glm::rotate(glm::mat4(1.0f), kPi / 4, glm::vec3(0, 1, 0));
   EXPECT_NEAR(picture(*sceneFromViewer({}, model)).at(4, 4, 0), 1.0f / std::sqrt(5.0f), 1e-4f);

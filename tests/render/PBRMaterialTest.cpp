@@ -23,7 +23,8 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
-// ---- The formulas of glTF 2.0, appendix B, as printed there, in double precision --------------------------
+// ---- The formulas of glTF 2.0, appendix B, as printed there, in double precision
+// --------------------------
 
 double heaviside(double x) {
   return x > 0.0 ? 1.0 : 0.0;
@@ -56,8 +57,6 @@ glm::dvec3 appendixB(const PBROptions& material, glm::dvec3 n, glm::dvec3 v, glm
   const glm::dvec3 dielectric = (1.0 - strongest) * base / glm::pi<double>() + fresnel * specular;
   return glm::mix(dielectric, metal, double{material.metallic});
 }
-
-// -----------------------------------------------------------------------------------------------------------
 
 /// Turns a node's -Z, along which a light shines, against `towardsLight` (not along Y).
 glm::mat4 shiningFrom(glm::vec3 towardsLight) {
@@ -163,7 +162,8 @@ float albedo(const std::function<FloatImage(const std::vector<std::shared_ptr<No
   constexpr int kRings = 64, kAzimuths = 16;
   float sum = 0.0f;
   for (int ring = 0; ring < kRings; ++ring) {
-    // Rings of equal steps in cos^2, each of which carries as much irradiance: n.l dl = pi d(cos^2).
+    // Rings of equal steps in cos^2, each of which carries as much irradiance: n.l dl = pi
+    // d(cos^2).
     const float z = std::sqrt((static_cast<float>(ring) + 0.5f) / kRings);
     std::vector<std::shared_ptr<Node>> suns;
     for (int k = 0; k < kAzimuths; ++k) {
@@ -181,7 +181,7 @@ TEST_F(PBRMaterialTest, GivesBackNoMoreLightThanItGets) {
   const auto albedoOf = [&](const PBROptions& options) {
     return albedo([&](const auto& suns) { return pictureOf(options, suns, test::square(), 1); });
   };
-  EXPECT_NEAR(albedoOf({.metallic = 0.0f, .specular = 0.0f}), 1.0f, 1e-3f) << "a white matt surface";
+  EXPECT_NEAR(albedoOf({.metallic = 0.0f, .specular = 0.0f}), 1.0f, 1e-3f) << "a white diffuse surface";
   // White microfacets lose what is scattered more than once. Of alpha 1 and seen from above, D V is
   // 1 / (2 pi (1 + n.l)), the integral of whose product with n.l is 1 - log 2.
   EXPECT_NEAR(albedoOf({.metallic = 1.0f, .roughness = 1.0f}), 1.0f - std::log(2.0f), 1e-3f);
@@ -210,8 +210,8 @@ std::shared_ptr<const BTFMaterial> whiteBtf() {
       test::valueOf(ReflectanceField::create(model, description, std::move(shared), std::move(views))))));
 }
 
-// A dielectric also mirrors, which no Lambertian surface does; KHR_materials_specular = 0 leaves the matt
-// part.
+// A dielectric also mirrors, which no Lambertian surface does; KHR_materials_specular = 0 leaves
+// the matt part.
 TEST_F(PBRMaterialTest, WhiteWithoutHighlightsLooksLikeAWhiteBtf) {
   const auto btf = whiteBtf();
   const auto pbr = std::make_shared<PBRMaterial>(PBROptions{.metallic = 0.0f, .specular = 0.0f});
@@ -287,7 +287,8 @@ TEST_F(PBRMaterialTest, BlendedThingsDoNotHideWhatIsBehindThem) {
 
 TEST_F(PBRMaterialTest, BackFacesShowOnlyWhenDoubleSidedWithTheirNormalsReversed) {
   PBROptions options{.metallic = 0.0f, .specular = 0.0f};
-  options.normalTexture.image = texture({{255, 128, 255, 255}}, 1);  // leans towards +x by 45 degrees
+  // leans towards +x by 45 degrees
+  options.normalTexture.image = texture({{255, 128, 255, 255}}, 1);
   auto mesh = test::square();
   for (std::size_t i = 0; i < 6; i += 3) std::swap(mesh->indices[i], mesh->indices[i + 1]);
   const std::vector lights{sun({0.6f, 0, 0.8f}, glm::vec3(kPi))};
@@ -313,8 +314,8 @@ TEST_F(PBRMaterialTest, NormalTexturesTurnTheNormalByTheirScale) {
   }
 }
 
-/// A quad whose texture coordinates are already where the placement would put them, with the tangent frame of
-/// these.
+/// A quad whose texture coordinates are already where the placement would put them, with the
+/// tangent frame of these.
 std::shared_ptr<Mesh> placedSquare(const TexturePlacement& placement) {
   auto mesh = test::square();
   const glm::mat2 matrix = placement.matrix(), frame = placement.tangentFrame();
@@ -355,8 +356,8 @@ TEST_F(PBRMaterialTest, PlacesEveryTextureAndTurnsTheFrameOfTheNormalTexture) {
 }
 
 TEST_F(PBRMaterialTest, TurnsTexturesCounterClockwise) {
-  // A quarter turn of the coordinates shows the image turned clockwise: its left column (red over blue, seen
-  // without) comes to the top.
+  // A quarter turn of the coordinates shows the image turned clockwise: its left column (red over
+  // blue, seen without) comes to the top.
   PBROptions options{.unlit = true};
   options.baseColorTexture.image =
       texture({{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {255, 255, 255, 255}}, 2, true);

@@ -13,7 +13,8 @@
 #include "weft/scenegraph/Shapes.h"
 #include "weft/scenegraph/Transform.h"
 
-// The same scene by GL and by ray tracing: two programs that share the model's formula and nothing else.
+// The same scene by GL and by ray tracing: two programs that share the model's formula and nothing
+// else.
 
 namespace weft::test {
 namespace {
@@ -73,8 +74,8 @@ TEST_F(ReferencePicture, TheReferenceRendererDrawsWhatGlDraws) {
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) traced.at(x, y, 3) = 1.0f;  // GL's background is opaque
 
-  // Pixels on an edge of the mesh or of a texel may fall to either side, and a texel of the cube map that
-  // straddles two triangles of views is decided by its centre.
+  // Pixels on an edge of the mesh or of a texel may fall to either side, and a texel of the cube
+  // map that straddles two triangles of views is decided by its centre.
   const ImageComparison comparison = compareImages(drawn, traced, 1e-3f);
   EXPECT_LE(comparison.failingShare, 0.01);
   EXPECT_LE(comparison.mean, 1e-4);

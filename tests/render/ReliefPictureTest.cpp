@@ -1,5 +1,5 @@
-// That relief is the right way round in the rendered picture: measured wool, baked hills whose every slope is
-// known, and materials on mirrored and turned quads (docs/conventions.md).
+// That relief is the right way round in the rendered picture: measured wool, baked hills whose
+// every slope is known, and materials on mirrored and turned quads (docs/conventions.md).
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -92,8 +92,8 @@ TEST_F(ReliefPictureTest, WoolIsBrightOnTheSideThatFacesTheLight) {
 
 constexpr int kSamples = 4 * kTexels;
 
-/// The smooth relief of a place, x to the right and y up, both with a period of 1, and how it rises with x
-/// and y: without symmetry.
+/// The smooth relief of a place, x to the right and y up, both with a period of 1, and how it rises
+/// with x and y: without symmetry.
 struct Hills {
   float height, alongX, alongY;
 
@@ -176,7 +176,8 @@ HeightField plateau(float height) {
   return field;
 }
 
-/// The middle of what is bright on the square, in texels to the right and down, as a camera sees it.
+/// The middle of what is bright on the square, in texels to the right and down, as a camera sees
+/// it.
 glm::vec2 brightMiddle(const FloatImage& picture, const Camera& camera) {
   const glm::mat4 toClip = camera.projection(1.0f) * camera.view;
   constexpr int kSteps = 8;  // a texel
@@ -236,8 +237,8 @@ FloatImage rearranged(const FloatImage& picture, Place place) {
   return result;
 }
 
-/// Close to the square, which is seen up to 48 degrees from its normal; no pixel looks along a border of the
-/// view lookup's texels, where rounding decides.
+/// Close to the square, which is seen up to 48 degrees from its normal; no pixel looks along a
+/// border of the view lookup's texels, where rounding decides.
 Camera closeCamera() {
   return cameraFrom({0, 0, 1}, 1.27f);
 }

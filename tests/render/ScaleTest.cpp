@@ -116,7 +116,8 @@ TEST_F(ScaleTest, VerticesMayBeFarFromTheirOwnOrigin) {
   EXPECT_EQ(differing(drawn(*back, cameraIn({}, false)), drawn(*lit, cameraIn({}, false))), 0.0);
 }
 
-/// Squares side by side, the middle one at the world's place, and after it one that is only seen from nearby.
+/// Squares side by side, the middle one at the world's place, and after it one that is only seen
+/// from nearby.
 std::shared_ptr<Node> rowOfSquares(const World& world) {
   auto root = std::make_shared<Node>(moved(world.origin, world.scale));
   const auto material = std::make_shared<LambertMaterial>();

@@ -33,12 +33,12 @@ ChunkList textures() {
   const auto shaped = [](TextureShape shape) { return TextureOptions{.shape = shape}; };
   return {
       std::make_shared<TextureChunk>(floats(1)),
-      std::make_shared<TextureChunk>(floats(1), TextureOptions{.shape = TextureShape::Flat,
+      std::make_shared<TextureChunk>(floats(1), TextureOptions{.shape = TextureShape::TwoDimensional,
                                                                .filter = TextureFilter::Mipmapped,
                                                                .wrap = TextureWrap::Repeat}),
       std::make_shared<TextureChunk>(floats(3), shaped(TextureShape::Array)),
       std::make_shared<TextureChunk>(floats(1), shaped(TextureShape::Rectangle)),
-      std::make_shared<TextureChunk>(floats(2), shaped(TextureShape::Volume)),
+      std::make_shared<TextureChunk>(floats(2), shaped(TextureShape::ThreeDimensional)),
       std::make_shared<CubeTextureChunk>(floats(6)),
       std::make_shared<TextureChunk>(bytes),
       std::make_shared<TextureChunk>(bytes, TextureOptions{.wrap = TextureWrap::Mirror, .srgb = true}),

@@ -66,10 +66,10 @@ struct ShapeCase {
   GLenum binding;
   int width, height, layers;
 };
-constexpr ShapeCase kShapes[] = {{TextureShape::Flat, GL_TEXTURE_BINDING_2D, 7, 5, 1},
+constexpr ShapeCase kShapes[] = {{TextureShape::TwoDimensional, GL_TEXTURE_BINDING_2D, 7, 5, 1},
                                  {TextureShape::Array, GL_TEXTURE_BINDING_2D_ARRAY, 7, 5, 3},
                                  {TextureShape::Rectangle, GL_TEXTURE_BINDING_RECTANGLE, 7, 5, 1},
-                                 {TextureShape::Volume, GL_TEXTURE_BINDING_3D, 7, 5, 3},
+                                 {TextureShape::ThreeDimensional, GL_TEXTURE_BINDING_3D, 7, 5, 3},
                                  {TextureShape::Cube, GL_TEXTURE_BINDING_CUBE_MAP, 5, 5, 6}};
 
 class TextureChunkTest : public test::GlTest {

@@ -12,7 +12,8 @@
 namespace weft {
 namespace {
 
-/// What shaders see of textures and blocks: a material whose pixel x computes the expression for index x.
+/// What shaders see of textures and blocks: a material whose pixel x computes the expression for
+/// index x.
 class TextureLookupTest : public test::GlTest {
  protected:
   std::vector<float> evaluate(const std::string& declarations, const std::string& expression, int count) {
@@ -49,8 +50,8 @@ TEST_F(TextureLookupTest, CubeFacesLieInGLsOrderAndHoldIntegersExactly) {
       "layout(binding = 31) uniform samplerCube cube;\n"
       "layout(std140, binding = 7) uniform Directions { vec4 directions[6]; };",
       "texture(cube, directions[i].xyz).r", 6);
-  // Every direction lies in the face's right half and upper one but for the Y faces', which GL turns: on +Y
-  // rows grow with z, on -Y against it.
+  // Every direction lies in the face's right half and upper one but for the Y faces', which GL
+  // turns: on +Y rows grow with z, on -Y against it.
   EXPECT_EQ(values, (std::vector<float>{4002, 4012, 4024, 4034, 4042, 4052}));
 }
 

@@ -8,7 +8,8 @@
 
 namespace weft::test {
 
-/// A height field ray-traced into memory, to be fitted without the detour of a file. Small ones only.
+/// A height field ray-traced into memory, to be fitted without the detour of a file. Small ones
+/// only.
 class BakedSource : public BtfSource {
  public:
   BakedSource(const HeightField& field, const BakeOptions& options) {

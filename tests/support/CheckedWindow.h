@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// PassiveWindow for tests that put it into a host program's place of that: every frame must leave GL's state
-/// as it was, without an error of GL.
+/// PassiveWindow for tests that put it into a host program's place of that: every frame must leave
+/// GL's state as it was, without an error of GL.
 class CheckedWindow {
  public:
   static Result<std::unique_ptr<CheckedWindow>> adopt() {

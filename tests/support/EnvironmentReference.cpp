@@ -48,7 +48,7 @@ glm::vec3 EnvironmentReference::shown(const glm::mat3& axes,
          kPi;
 }
 
-glm::vec3 EnvironmentReference::Light::matt(glm::vec3 normal) const {
+glm::vec3 EnvironmentReference::Light::diffuse(glm::vec3 normal) const {
   const glm::vec3 n = axes_ * normal;
   return reference_.sum([&](glm::vec3 l) { return std::max(glm::dot(n, l), 0.0f); }) / kPi;
 }

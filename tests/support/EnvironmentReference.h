@@ -6,37 +6,40 @@
 #include <vector>
 
 #include "weft/reflectance/Environment.h"
+#include "weft/reflectance/EnvironmentIntegrals.h"
 #include "weft/reflectance/MicrofacetTable.h"
-#include "weft/reflectance/SurfaceLight.h"
 
 namespace weft {
 
 /// How the light of a lobe is approximated.
 enum class LobeMethod {
   True,          ///< not at all: (t.l)^n n.l above the surface
-  Paper,         ///< paper M 5.2: all light of (t.l)^n, times n.t
+  Paper,         ///< [Meseth 2004] 5.2: all light of (t.l)^n, times n.t
   PaperRounded,  ///< the same with n rounded to 2^(i/2), i = 0..10
-  Shifted,       ///< n.t times the lobe n + 1, leant towards the normal by 1 / ((n + 1) n.t): its first order
-  Fitted,        ///< lobeAboveHorizon(), what shaders do
+  /// n.t times the lobe n + 1, leant towards the normal by 1 / ((n + 1) n.t): its first order
+  Shifted,
+  Fitted,  ///< lobeAboveHorizon(), what shaders do
 };
 
-/// Integrals over an environment as sums over all of its texels: the reference of what is prefiltered, and of
-/// what approximations cost. An environment of some thousand texels is quick. Immutable, thread safe.
+/// Integrals over an environment as sums over all of its texels: the reference of what is
+/// prefiltered, and of what approximations cost. An environment of some thousand texels is quick.
+/// Immutable, thread safe.
 class EnvironmentReference {
  public:
   explicit EnvironmentReference(const Environment& environment);
 
-  /// The radiance that a surface shows whose value (n.l included; 1 is white) for light from a direction of
-  /// its tangent frame is given. `axes`: its tangent, bitangent and normal.
+  /// The radiance that a surface shows whose value (n.l included; 1 is white) for light from a
+  /// direction of its tangent frame is given. `axes`: its tangent, bitangent and normal.
   glm::vec3 shown(const glm::mat3& axes, const std::function<glm::vec3(glm::vec3 light)>& value) const;
 
-  /// The environment as a surface's model asks for it, its lobes by one of the methods. Refers to this.
-  class Light : public SurfaceLight {
+  /// The environment as a surface's model asks for it, its lobes by one of the methods. Refers to
+  /// this.
+  class Light : public EnvironmentIntegrals {
    public:
     Light(const EnvironmentReference& reference, const glm::mat3& axes, LobeMethod method)
         : reference_(reference), axes_(axes), method_(method) {}
 
-    glm::vec3 matt(glm::vec3 normal) const override;
+    glm::vec3 diffuse(glm::vec3 normal) const override;
     glm::vec3 lobe(glm::vec3 t, float exponent) const override;
     std::array<glm::vec3, 6> moments() const override;
     glm::vec3 glossy(glm::vec3 normal, glm::vec3 view, float roughness, float f0) const override;

@@ -12,9 +12,11 @@
 
 namespace weft::test {
 
-/// A test that draws: `window` has a current debug context, and whatever GL calls an error fails the test.
+/// A test that draws: `window` has a current debug context, and whatever GL calls an error fails
+/// the test.
 ///
-/// Without GL the test is skipped, but fails where CI is "true", so that it cannot quietly stop testing.
+/// Without GL the test is skipped, but fails where CI is "true", so that it cannot quietly stop
+/// testing.
 class GlTest : public testing::Test {
  protected:
   void SetUp() override {

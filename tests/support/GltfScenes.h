@@ -56,8 +56,8 @@ inline std::vector<DrawnMesh> drawnIn(const GltfScene& scene) {
   return drawn;
 }
 
-/// A glTF file that is put together member by member: "json" of what GltfText writes, with one node and one
-/// mesh of one triangle; its accessor 0 are the positions.
+/// A glTF file that is put together member by member: "json" of what GltfText writes, with one node
+/// and one mesh of one triangle; its accessor 0 are the positions.
 inline Json triangleGltf(const GltfText& buffers) {
   return Json::parse(
       buffers.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])"));

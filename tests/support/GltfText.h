@@ -37,7 +37,8 @@ class BufferBytes {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// The buffer of planeGltf(): 4 positions, 4 normals, 4 texture coordinates (floats), 6 indices (16 bits).
+/// The buffer of planeGltf(): 4 positions, 4 normals, 4 texture coordinates (floats), 6 indices (16
+/// bits).
 inline BufferBytes planeBuffer() {
   BufferBytes buffer;
   buffer.add<float>({-0.5f, 0.5f, 0, 0.5f, 0.5f, 0, -0.5f, -0.5f, 0, 0.5f, -0.5f, 0})
@@ -47,8 +48,8 @@ inline BufferBytes planeBuffer() {
   return buffer;
 }
 
-/// The plane of makePlane() with one material, as a .gltf; `bufferUri` empty leaves the uri out, for a .glb.
-/// Written without spaces, for replaced().
+/// The plane of makePlane() with one material, as a .gltf; `bufferUri` empty leaves the uri out,
+/// for a .glb. Written without spaces, for replaced().
 inline std::string planeGltf(const std::string& material = R"({"name":"base"})",
                              const std::string& bufferUri = planeBuffer().dataUri()) {
   const std::string uri = bufferUri.empty() ? "" : R"("uri":")" + bufferUri + R"(",)";
@@ -85,7 +86,8 @@ inline std::string planeGlb() {
 /// A .gltf put together from numbers, which become accessors of one embedded buffer.
 class GltfText {
  public:
-  /// The number of the new accessor; `type`: "VEC3"; `more`: further members of it, each after a comma.
+  /// The number of the new accessor; `type`: "VEC3"; `more`: further members of it, each after a
+  /// comma.
   template <class Number>
   int add(const std::vector<Number>& numbers, const std::string& type, const std::string& more = "") {
     const std::size_t components = type == "SCALAR" ? 1u
@@ -113,8 +115,8 @@ class GltfText {
     return viewCount_++;
   }
 
-  /// The file; `members` are what it has beside asset, the scene of node 0 and the accessors: nodes,
-  /// meshes...
+  /// The file; `members` are what it has beside asset, the scene of node 0 and the accessors:
+  /// nodes, meshes...
   std::string text(const std::string& members) const {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)" + members +
            R"(,"accessors":[)" + accessors_ + R"(],"bufferViews":[)" + views_ +

@@ -44,8 +44,9 @@ inline double lafCost(const LafProblem& problem, const LafJob& job, const LafFit
   return cost;
 }
 
-/// A retro-reflecting and a mirroring lobe, both off their ideal axes, over a diffuse albedo; with the noise
-/// asked for, and then half of the views of some texels in shadow. The starts are the truth disturbed.
+/// A retro-reflecting and a mirroring lobe, both off their ideal axes, over a diffuse albedo; with
+/// the noise asked for, and then half of the views of some texels in shadow. The starts are the
+/// truth disturbed.
 inline LafTexels syntheticLafTexels(std::size_t count, float noise, std::vector<glm::vec3> directions) {
   LafTexels texels;
   texels.problem = {directions, directions};
@@ -86,9 +87,9 @@ inline LafTexels syntheticLafTexels(std::size_t count, float noise, std::vector<
   return texels;
 }
 
-/// The residuals of a two-lobe job over all samples, none merged, for ceres::TinySolver. A lobe is the root
-/// of the amplitude, two numbers for axes of length one, as parabolic coordinates, and the logarithm of the
-/// exponent.
+/// The residuals of a two-lobe job over all samples, none merged, for ceres::TinySolver. A lobe is
+/// the root of the amplitude, two numbers for axes of length one, as parabolic coordinates, and the
+/// logarithm of the exponent.
 struct LafResiduals {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 9 };

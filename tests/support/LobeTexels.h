@@ -13,8 +13,8 @@
 
 namespace weft::test {
 
-/// Small fits for tests and benchmarks of solveLobes(): samples and starting points that live as long as
-/// they.
+/// Small fits for tests and benchmarks of solveLobes(): samples and starting points that live as
+/// long as they.
 struct LobeTexels {
   LobeProblem problem;
   int lobes = 2;
@@ -31,8 +31,8 @@ struct LobeTexels {
   }
 };
 
-/// Two lobes over a diffuse albedo under UBO2003's lights, with noise of 2 % and a third of the lights of
-/// some texels in shadow; the starts are the truth disturbed.
+/// Two lobes over a diffuse albedo under UBO2003's lights, with noise of 2 % and a third of the
+/// lights of some texels in shadow; the starts are the truth disturbed.
 inline LobeTexels syntheticTexels(std::size_t count) {
   LobeTexels texels;
   texels.problem.lights = ubo2003Sampling();
@@ -71,8 +71,8 @@ inline LobeTexels syntheticTexels(std::size_t count) {
   return texels;
 }
 
-/// The residuals of a job in double precision, written plainly, for ceres::TinySolver: what solveLobes() is
-/// checked against.
+/// The residuals of a job in double precision, written plainly, for ceres::TinySolver: what
+/// solveLobes() is checked against.
 struct ReferenceResiduals {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 9 };

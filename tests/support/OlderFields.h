@@ -9,9 +9,10 @@
 
 namespace weft::test {
 
-/// The folder of fields that an older Weft wrote, for every model and manifest 2: NAME.rf.exr, with what that
-/// Weft's `weft-eval --image 40 50 35 200` gave for it as NAME.values.exr, and as NAME.picture.exr the
-/// picture of `weft-render shape:plane --camera 0.3,0.4,1:0,0,0 --light=-1,1,1.5 --size 10x8`.
+/// The folder of fields that an older Weft wrote, for every model and manifest 2: NAME.rf.exr, with
+/// what that Weft's `weft-eval --image 40 50 35 200` gave for it as NAME.values.exr, and as
+/// NAME.picture.exr the picture of `weft-render shape:plane --camera 0.3,0.4,1:0,0,0
+/// --light=-1,1,1.5 --size 10x8`.
 inline std::filesystem::path olderFieldsFolder() {
   return sourceFolder() / "tests/data/manifest2";
 }

@@ -9,8 +9,8 @@
 
 namespace weft::test {
 
-/// Fits RampModel: the first pass looks for the largest value of all texels, up to which the table then rises
-/// evenly; the second finds each view's place in it.
+/// Fits RampModel: the first pass looks for the largest value of all texels, up to which the table
+/// then rises evenly; the second finds each view's place in it.
 class RampFitter : public FieldFitter {
  public:
   /// Weft's fitters and this one.

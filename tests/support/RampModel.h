@@ -6,8 +6,9 @@
 
 namespace weft::test {
 
-/// A model that is not one of Weft's, with an option and a table: for every view a number, the texel's place
-/// in the table `ramp`, between whose texels it interpolates; times (n.l)^power, `power` being the option.
+/// A model that is not one of Weft's, with an option and a table: for every view a number, the
+/// texel's place in the table `ramp`, between whose texels it interpolates; times (n.l)^power,
+/// `power` being the option.
 class RampModel : public ReflectanceModel {
  public:
   static ModelType type() {
@@ -27,7 +28,7 @@ class RampModel : public ReflectanceModel {
   explicit RampModel(ModelOptions options, std::shared_ptr<const FieldTables> tables = nullptr)
       : ReflectanceModel(std::move(options)), tables_(std::move(tables)) {}
 
-  std::vector<std::string> layerNumbers() const override { return {"place"}; }
+  std::vector<std::string> layerParameters() const override { return {"place"}; }
   std::vector<ModelTable> tables() const override { return {{"ramp", {"value"}, 0, 1}}; }
 
   Result<std::shared_ptr<const ReflectanceModel>> bind(
@@ -52,7 +53,7 @@ class RampModel : public ReflectanceModel {
     return R"(
 layout(binding = TABLE_ramp) uniform sampler2DArray ramp;
 
-float evaluateModel(SharedNumbers shared_, LayerNumbers layer, vec3 light, vec3 view) {
+float evaluateModel(SharedParameters shared_, LayerParameters layer, vec3 light, vec3 view) {
   int last = textureSize(ramp, 0).x - 1;
   float place = clamp(layer.texels[0].x, 0.0, 1.0) * float(last);
   int left = min(int(place), last - 1);

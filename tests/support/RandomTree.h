@@ -143,8 +143,8 @@ struct Shown {
   const Material* material = nullptr;
 };
 
-/// What an eye sees of a tree, by the rules of Switch, LOD, MaterialGroup and Transform, written down as
-/// recursion.
+/// What an eye sees of a tree, by the rules of Switch, LOD, MaterialGroup and Transform, written
+/// down as recursion.
 inline void findShown(const Node& node, glm::dvec3 eye, Shown above, std::vector<Shown>& shown) {
   above.node = &node;
   const auto* transform = dynamic_cast<const Transform*>(&node.core());

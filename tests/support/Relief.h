@@ -50,7 +50,8 @@ inline double meanOf(const FloatImage& image) {
 
 enum class Axis { Columns, Rows };
 
-/// The mean of every column, from left to right, or of every row, from top to bottom, over the image's mean.
+/// The mean of every column, from left to right, or of every row, from top to bottom, over the
+/// image's mean.
 inline std::vector<double> profile(const FloatImage& image, Axis axis) {
   const int length = axis == Axis::Columns ? image.width() : image.height();
   std::vector<double> sums(static_cast<std::size_t>(length));
@@ -72,8 +73,9 @@ inline std::vector<double> smoothed(const std::vector<double>& values) {
   return result;
 }
 
-/// What light does to relief, as -1..1: positive where, of two pictures lit from opposite sides, the one lit
-/// from growing columns (rows) is the brighter one on slopes that fall towards growing columns (rows).
+/// What light does to relief, as -1..1: positive where, of two pictures lit from opposite sides,
+/// the one lit from growing columns (rows) is the brighter one on slopes that fall towards growing
+/// columns (rows).
 ///
 /// What is bright under both lights counts as high, because only crests are lit from both sides.
 inline double flankScore(const FloatImage& litFromGrowing, const FloatImage& litFromFalling, Axis axis) {

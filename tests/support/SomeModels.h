@@ -12,8 +12,9 @@
 
 namespace weft::test {
 
-/// Every model of Weft with the standard of its options, and with all of them as far from it as they go:
-/// numbers at their smallest, words at the last. Tests of what holds for all models walk these.
+/// Every model of Weft with the standard of its options, and with all of them as far from it as
+/// they go: numbers at their smallest, words at the last. Tests of what holds for all models walk
+/// these.
 inline std::vector<ModelDescription> someModels() {
   std::vector<ModelDescription> models;
   const ModelRegistry registry = ModelRegistry::builtin();
@@ -45,8 +46,8 @@ inline FloatImage unevenNumbers(int width, int height, const std::vector<std::st
   return image;
 }
 
-/// A field of four views and five lights whose every number is another, so that a mix-up of texels, layers or
-/// channels shows.
+/// A field of four views and five lights whose every number is another, so that a mix-up of texels,
+/// layers or channels shows.
 inline ReflectanceField unevenField(const ModelDescription& description, int width, int height,
                                     Precision precision = Precision::Half) {
   const auto model = valueOf(ModelRegistry::builtin().create(description));

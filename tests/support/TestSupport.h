@@ -11,16 +11,16 @@
 
 namespace weft::test {
 
-/// A file of the measured data that `$WEFT_DATA` names; empty where that is not set. Use WEFT_DATA_FILE,
-/// which skips.
+/// A file of the measured data that `$WEFT_DATA` names; empty where that is not set. Use
+/// WEFT_DATA_FILE, which skips.
 std::filesystem::path dataFile(const std::string& name);
 
 /// The root of the source tree, and the folder in which the programs were built.
 std::filesystem::path sourceFolder();
 std::filesystem::path programFolder();
 
-/// A fresh, empty folder for the files of the running test; kept, so that a failing test leaves its pictures
-/// behind.
+/// A fresh, empty folder for the files of the running test; kept, so that a failing test leaves its
+/// pictures behind.
 std::filesystem::path testFolder();
 
 /// The most bytes of memory that the process has held until now.

@@ -17,8 +17,8 @@ namespace weft {
 
 namespace {
 
-/// Beside the output, because the system's folder for temporary files is often kept in memory; without a name
-/// where the file system can, so that nothing stays of a program that is killed.
+/// Beside the output, because the system's folder for temporary files is often kept in memory;
+/// without a name where the file system can, so that nothing stays of a program that is killed.
 Result<std::unique_ptr<std::FILE, int (*)(std::FILE*)>> openScratch(const std::filesystem::path& folder) {
   int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (std::string name = (folder / ".weft-bake-XXXXXX").string(); descriptor < 0) {

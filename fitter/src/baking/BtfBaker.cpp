@@ -29,8 +29,9 @@ constexpr std::size_t kPacket = 16;
 /// cos 85 degrees: lower directions would need a replicated margin of many periods.
 constexpr float kLowestZ = 0.0871f;
 constexpr std::size_t kMostQuads = 100'000'000;
-/// Paths of bounces from the point that a sample sees. Light that arrives by way of other places is noisier
-/// than light that comes directly, and most of these paths cost nothing more because they leave the surface.
+/// Paths of bounces from the point that a sample sees. Light that arrives by way of other places is
+/// noisier than light that comes directly, and most of these paths cost nothing more because they
+/// leave the surface.
 constexpr int kBranches = 4;
 /// A bounce that runs level for longer than this many margins counts as having left the surface.
 constexpr int kMostSegments = 256;
@@ -61,8 +62,8 @@ std::uint32_t reverseBits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// Where a random permutation of 0..count-1, which `key` decides, takes `index`: a bijection of the next
-/// power of two, repeated until it lands within.
+/// Where a random permutation of 0..count-1, which `key` decides, takes `index`: a bijection of the
+/// next power of two, repeated until it lands within.
 std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t key) {
   const std::uint32_t mask = std::bit_ceil(count) - 1;
   const auto odd = static_cast<std::uint32_t>(key) | 1u;
@@ -77,9 +78,9 @@ std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t k
   return index;
 }
 
-/// Point `sample` of a Hammersley set of `count` in the unit square, shifted by a random amount that `key`
-/// decides: stratified in both axes for every count. Points of different keys are independent, because each
-/// key also puts its set into an order of its own.
+/// Point `sample` of a Hammersley set of `count` in the unit square, shifted by a random amount
+/// that `key` decides: stratified in both axes for every count. Points of different keys are
+/// independent, because each key also puts its set into an order of its own.
 glm::vec2 stratifiedPoint(int sample, int count, std::uint64_t key) {
   const std::uint64_t shift = mix(key);
   const std::uint32_t index =
@@ -134,8 +135,8 @@ Result<void> BakeOptions::validate() const {
   return {};
 }
 
-/// The surface in Embree, replicated around one period as far as the lowest view or light can reach, and what
-/// a path needs to know of it.
+/// The surface in Embree, replicated around one period as far as the lowest view or light can
+/// reach, and what a path needs to know of it.
 struct BtfBaker::Tracer {
   HeightField field;
   BakeOptions options;
@@ -183,7 +184,8 @@ Result<void> BtfBaker::Tracer::build() {
   for (const glm::vec3 d : options.views) lowestZ = std::min(lowestZ, d.z);
   for (const glm::vec3 d : options.lights) lowestZ = std::min(lowestZ, d.z);
   const float tangent = std::sqrt(std::max(0.0f, 1.0f - lowestZ * lowestZ)) / lowestZ;
-  // A view ray runs from the top to the plane and on to the bottom, and the plane may lie outside of both.
+  // A view ray runs from the top to the plane and on to the bottom, and the plane may lie outside
+  // of both.
   const float range = std::max(top, 0.0f) - std::min(bottom, 0.0f);
   const float reach = std::ceil(range * tangent / field.spacing) + 2.0f;
   const double quadCount = (static_cast<double>(field.columns) + 2.0 * static_cast<double>(reach)) *
@@ -210,8 +212,8 @@ Result<void> BtfBaker::Tracer::build() {
     fillMesh(marginSamples, static_cast<float*>(vertices), static_cast<std::uint32_t*>(quads));
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene, mesh);
-    // The tree's shape decides ties between facets, and so the bytes of the result. (Embree's own option
-    // "threads=1" would slow everything else in the process, too.)
+    // The tree's shape decides ties between facets, and so the bytes of the result. (Embree's own
+    // option "threads=1" would slow everything else in the process, too.)
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     rtcCommitScene(scene);
   }
@@ -276,7 +278,8 @@ bool BtfBaker::Tracer::intersect(glm::vec3 origin, glm::vec3 direction, float le
   return true;
 }
 
-/// For rays of any slope from within the period: margin by margin, starting again inside the period.
+/// For rays of any slope from within the period: margin by margin, starting again inside the
+/// period.
 bool BtfBaker::Tracer::intersectPeriodic(glm::vec3 origin, glm::vec3 direction, Hit& hit) const {
   const float level = glm::length(glm::vec2(direction.x, direction.y));
   const float segment = level > 0.0f ? margin / level : kInfinity;
@@ -297,8 +300,8 @@ glm::vec3 BtfBaker::Tracer::texelPoint(int column, int row, glm::vec2 within) co
           -(static_cast<float>(row) + within.y) * size.y / static_cast<float>(options.height), 0.0f};
 }
 
-/// pi times the BRDF: Lambert plus GGX with the height-correlated Smith term (Heitz 2014) and no Fresnel
-/// factor, which is reciprocal and never reflects more than albedo + specular.
+/// pi times the BRDF: Lambert plus GGX with the height-correlated Smith term (Heitz 2014) and no
+/// Fresnel factor, which is reciprocal and never reflects more than albedo + specular.
 glm::vec3 BtfBaker::Tracer::reflectance(const HeightField::Sample& sample, glm::vec3 normal, glm::vec3 view,
                                         glm::vec3 light) const {
   if (sample.specular <= 0.0f) return sample.albedo;
@@ -319,7 +322,8 @@ void BtfBaker::Tracer::addLights(const Hit& hit, glm::vec3 view, glm::vec3 throu
   const glm::vec3 origin = hit.position + offset * hit.normal;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;  // a third less time than COHERENT: measured
+  // a third less time than COHERENT: measured
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   const std::size_t lights = options.lights.size();
   for (std::size_t next = 0; next < lights;) {
     RTCRay16 rays{};
@@ -352,8 +356,8 @@ void BtfBaker::Tracer::addLights(const Hit& hit, glm::vec3 view, glm::vec3 throu
   }
 }
 
-/// Everything that the surface sends towards the eye through one point of the plane: light that comes
-/// directly, and light along kBranches paths of bounces.
+/// Everything that the surface sends towards the eye through one point of the plane: light that
+/// comes directly, and light along kBranches paths of bounces.
 void BtfBaker::Tracer::addSample(glm::vec3 point, glm::vec3 view, int sample, std::uint64_t key,
                                  std::span<glm::vec3> sums) const {
   const float above = std::max(top, 0.0f) + offset;

@@ -76,7 +76,8 @@ HeightField::Sample corduroy(glm::vec2 p) {
   return sample;
 }
 
-/// The highest of the yarns that cross at a place: plain weave of four by four, warp light, weft blue.
+/// The highest of the yarns that cross at a place: plain weave of four by four, warp light, weft
+/// blue.
 HeightField::Sample weave(glm::vec2 p) {
   constexpr float kYarns = 4.0f;
   constexpr float kHalfWidth = 0.44f;
@@ -92,7 +93,8 @@ HeightField::Sample weave(glm::vec2 p) {
     const float wander = 0.05f * noise(p, {4, 4}, seed);
     const float offset = (across - std::floor(across) - 0.5f + wander) / kHalfWidth;
     if (std::abs(offset) >= 1.0f) continue;
-    // Warp and weft cross in the middle of a cell, one of them at its highest and the other at its lowest.
+    // Warp and weft cross in the middle of a cell, one of them at its highest and the other at its
+    // lowest.
     const float parity = ((yarn % 2 == 0) == isWarp) ? 1.0f : -1.0f;
     const float centre = parity * std::cos(kPi * (along - 0.5f));
     const float twist = std::cos(2.0f * kPi * (3.0f * along + 1.1f * offset));

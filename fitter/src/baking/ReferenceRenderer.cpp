@@ -21,8 +21,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Directions, orthonormal but left-handed where the image is mirrored or seen from behind: go into it by dot
-/// products only.
+/// Directions, orthonormal but left-handed where the image is mirrored or seen from behind: go into
+/// it by dot products only.
 struct TangentFrame {
   glm::vec3 t, b, n;
 
@@ -69,7 +69,8 @@ Result<void> check(const ReferenceMesh& mesh) {
 /// The texel at a texture coordinate of one axis.
 int texelAt(float coordinate, int size) {
   const float place = (coordinate - std::floor(coordinate)) * static_cast<float>(size);
-  return std::min(static_cast<int>(place), size - 1);  // the fraction of a tiny negative number is 1
+  // the fraction of a tiny negative number is 1
+  return std::min(static_cast<int>(place), size - 1);
 }
 
 /// From a pixel's place (x right, y down, 0..1) to the ray through it.

@@ -31,7 +31,8 @@ std::vector<glm::vec3> without(const std::vector<glm::vec3>& directions, const s
   return rest;
 }
 
-// Those that are held out, and those on or below the horizon: models differ in what they make of these.
+// Those that are held out, and those on or below the horizon: models differ in what they make of
+// these.
 std::vector<bool> lightsLeftOut(const std::vector<glm::vec3>& lights, int every) {
   std::vector<bool> left = heldOut(lights, every);
   for (std::size_t i = 0; i < lights.size(); ++i)
@@ -50,8 +51,8 @@ ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const 
           {}};
 }
 
-// Everything that decides the numbers of a fit, for people to compare. What the measurement is called does
-// not.
+// Everything that decides the numbers of a fit, for people to compare. What the measurement is
+// called does not.
 Result<std::string> fingerprintOf(const BtfSource& source, const FitOptions& options, const Crop& crop,
                                   const ModelDescription& model) {
   if (options.partsFolder.empty()) return std::string();

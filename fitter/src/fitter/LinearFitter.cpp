@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 Eigen::MatrixXd termsOf(const FitProblem& problem, const LinearFitter::Terms& terms) {
-  std::vector<double> row(problem.model->layerNumbers().size());
+  std::vector<double> row(problem.model->layerParameters().size());
   Eigen::MatrixXd matrix(problem.lights.size(), row.size());
   for (std::size_t i = 0; i < problem.lights.size(); ++i) {
     terms(problem.lights[i], row);
@@ -25,7 +25,7 @@ Eigen::MatrixXd termsOf(const FitProblem& problem, const LinearFitter::Terms& te
 
 Result<std::unique_ptr<TexelFitter>> LinearFitter::create(const FitProblem& problem, const Terms& terms) {
   std::optional<LinearLeastSquares> solver = LinearLeastSquares::create(termsOf(problem, terms));
-  const std::size_t numbers = problem.model->layerNumbers().size();
+  const std::size_t numbers = problem.model->layerParameters().size();
   if (!solver)
     return fail(
         fmt::format("{} directions do not determine the {} numbers that {} has in a layer",

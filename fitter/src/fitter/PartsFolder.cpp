@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a file begins with; its fingerprint and the contents follow. With a checksum, because a file that is
-// renamed before its blocks reach the disk may come out of a power cut full of zeros.
+// What a file begins with; its fingerprint and the contents follow. With a checksum, because a file
+// that is renamed before its blocks reach the disk may come out of a power cut full of zeros.
 struct Header {
   char magic[8] = {'w', 'e', 'f', 't', 'r', 'o', 'w', 's'};
   std::uint64_t fingerprintBytes = 0;

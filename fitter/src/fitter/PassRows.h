@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// What a pass of a fit makes of each row, in memory and in a PartsFolder. Rows may be done in several
-/// threads while another one saves those that are.
+/// What a pass of a fit makes of each row, in memory and in a PartsFolder. Rows may be done in
+/// several threads while another one saves those that are.
 class PassRows {
  public:
   PassRows(const PartsFolder& folder, int pass, int height);

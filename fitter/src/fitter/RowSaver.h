@@ -11,12 +11,12 @@
 
 namespace weft {
 
-/// Saves finished rows while others are being fitted, in a thread of its own: where fits have one thread,
-/// nothing else would come to it before they end.
+/// Saves finished rows while others are being fitted, in a thread of its own: where fits have one
+/// thread, nothing else would come to it before they end.
 class RowSaver {
  public:
-  /// Saves not sooner than `seconds` after the last time. `warn` hears of the first failure; the next time
-  /// tries again.
+  /// Saves not sooner than `seconds` after the last time. `warn` hears of the first failure; the
+  /// next time tries again.
   RowSaver(PassRows& rows, double seconds, const std::function<void(const std::string&)>& warn);
   ~RowSaver();
 

@@ -38,7 +38,7 @@ void TexelFieldFitter::fitTexel(const TexelSamples& samples, std::span<float> sh
 
   const auto channels = static_cast<std::size_t>(model_->colorChannels());
   const std::size_t sharedCount = (shared.size() - 3) / channels;
-  const std::size_t layerCount = layers.empty() ? 0 : model_->layerNumbers().size();
+  const std::size_t layerCount = layers.empty() ? 0 : model_->layerParameters().size();
   const std::size_t layerTotal = layerCount == 0 ? 0 : layers.size() / (layerCount * channels);
   std::vector<float> channelLayers(layerTotal * layerCount);
   for (std::size_t c = 0; c < channels; ++c) {

@@ -8,7 +8,8 @@
 
 namespace weft {
 
-/// Fits every texel by itself: base colour, then a TexelFitter for luminance or each colour channel.
+/// Fits every texel by itself: base colour, then a TexelFitter for luminance or each colour
+/// channel.
 class TexelFieldFitter : public FieldFitter {
  public:
   TexelFieldFitter(const FitProblem& problem, std::unique_ptr<TexelFitter> fitter);

@@ -110,7 +110,7 @@ void addPapersTable(HtmlReport& report) {
                                               {"", "min", {.0391, .0389, .0773, .0324}},
                                               {"", "max", {.0935, .0889, .0985, .0782}}}};
   ReportTable table{
-      "The paper's own table 1 (Meseth et al. 2004; laf with four lobes, rfnl with two), of its own "
+      "The paper's own table 1 ([Meseth 2004] 2004; laf with four lobes, rfnl with two), of its own "
       "measurements at 256 x 256.",
       {"material", "of texels", "laf", "slaf", "rfp", "rfnl"},
       {}};

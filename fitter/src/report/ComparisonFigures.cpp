@@ -128,8 +128,8 @@ double displayedDifference(const FloatImage& a, const FloatImage& b) {
 
 // --- Single views ---
 
-/// A spiral of directions as far from each other as from their neighbours, down to the lowest that was
-/// measured.
+/// A spiral of directions as far from each other as from their neighbours, down to the lowest that
+/// was measured.
 std::vector<glm::vec3> evenLights(std::size_t count, float lowest) {
   std::vector<glm::vec3> lights;
   const float golden = std::numbers::pi_v<float> * (3.0f - std::sqrt(5.0f));
@@ -175,7 +175,7 @@ Image texelsAt(int width, int height, const std::function<glm::vec3(int x, int y
 
 void addPapersSingleView(HtmlReport& report) {
   report.table(
-      {"The paper's own table 2 (Boßerhoff and Nicoll 2003), of one view of 256 x 256 texels, on an AMD at "
+      {"The paper's own table 2 ([Bosserhoff 2003] 2003), of one view of 256 x 256 texels, on an AMD at "
        "1.3 GHz.",
        {"what", "memory, MB", "fitting, s"},
        {{"BTF", "58", "-"},
@@ -328,7 +328,7 @@ Result<std::vector<OneViewFit>> addSingleViews(HtmlReport& report, const RawBtf&
   const std::vector<glm::vec3>& views = btf.description().views;
   report.heading("Single views");
   report.paragraph(
-      "Fits of one view each, as Boßerhoff and Nicoll (2003, table 2 and figure 1), to stored values. Their "
+      "Fits of one view each, as [Bosserhoff 2003] (2003, table 2 and figure 1), to stored values. Their "
       "views are (0°, 0°), "
       "(25°, 0°) and (50°, 0°); here are the nearest that were measured. Errors between lights are against "
       "the interpolated "

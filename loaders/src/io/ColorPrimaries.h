@@ -16,8 +16,8 @@ struct ColorPrimaries {
   glm::dvec2 white{0.3127, 0.3290};
 };
 
-/// Linear RGB of these primaries to Rec. 709; white becomes white (Bradford). The identity where they are
-/// those of Rec. 709 to three digits; none where they span no colours.
+/// Linear RGB of these primaries to Rec. 709; white becomes white (Bradford). The identity where
+/// they are those of Rec. 709 to three digits; none where they span no colours.
 std::optional<glm::mat3> toRec709(const ColorPrimaries& primaries);
 
 /// Multiplies the channels R, G, B, which the image has, in this order and no others.

@@ -15,8 +15,8 @@
 namespace weft {
 namespace {
 
-// Another number whenever PrefilteredEnvironment::create() makes something else of the same picture, or files
-// hold it otherwise.
+// Another number whenever PrefilteredEnvironment::create() makes something else of the same
+// picture, or files hold it otherwise.
 constexpr std::string_view kMagic = "weft environment 2\n";
 constexpr std::string_view kExtension = ".2.env";
 
@@ -36,7 +36,8 @@ PrefilteredEnvironment emptyEnvironment() {
           image(P::kGlossyMap, P::kGlossyLayers), 1.0f};
 }
 
-/// FNV-1a over whole words, twice with different starts: 128 bits against chance, not against malice.
+/// FNV-1a over whole words, twice with different starts: 128 bits against chance, not against
+/// malice.
 class Hash {
  public:
   void add(std::uint64_t word) {
@@ -196,7 +197,8 @@ PrefilteredEnvironment prefilter(const Environment& environment, const std::file
   PrefilteredEnvironment prefiltered = PrefilteredEnvironment::create(environment);
   const std::string values = packed(prefiltered);
   std::filesystem::create_directories(folder, ignored);
-  (void)writeWholeFile(file, headOf(picture, values) + values);  // without it the next run takes longer
+  // without it the next run takes longer
+  (void)writeWholeFile(file, headOf(picture, values) + values);
   return prefiltered;
 }
 

@@ -22,8 +22,8 @@ inline bool swapsSides(Orientation orientation) {
   return orientation >= Orientation::Transposed;
 }
 
-/// The orientation in a block of EXIF (a TIFF header and its first directory). A block that has none, or is
-/// damaged, leaves the image as it is stored.
+/// The orientation in a block of EXIF (a TIFF header and its first directory). A block that has
+/// none, or is damaged, leaves the image as it is stored.
 Orientation exifOrientation(std::span<const std::uint8_t> exif);
 
 }  // namespace weft

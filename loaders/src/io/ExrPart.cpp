@@ -19,15 +19,15 @@ namespace weft {
 namespace {
 
 constexpr int kLargestSide = 16384;
-// Deflate packs at most 1032 to 1, and halfs become floats; files up to the free size may be better packed by
-// other methods.
+// Deflate packs at most 1032 to 1, and halfs become floats; files up to the free size may be better
+// packed by other methods.
 constexpr std::uint64_t kMostExpansion = 2 * 1032;
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 // Pictures of one colour may well be packed by more, but few others.
 constexpr std::uint64_t kUsualExpansion = 64;
 
-// OpenEXR keeps an attribute, of 14 bytes at least, and a channel, of 18, in up to so many bytes in its
-// copies of the headers.
+// OpenEXR keeps an attribute, of 14 bytes at least, and a channel, of 18, in up to so many bytes in
+// its copies of the headers.
 constexpr std::uint64_t kEntryMemory = 2400;
 constexpr std::uint64_t kSmallestChannel = 18;
 constexpr std::uint64_t kMostHeaderExpansion = 16;
@@ -52,7 +52,8 @@ std::string readName(std::istream& stream) {
   return name;
 }
 
-// Counts attributes and channels of a header on; false where an attribute does not fit into the file.
+// Counts attributes and channels of a header on; false where an attribute does not fit into the
+// file.
 bool attributesFit(std::istream& stream, std::uint64_t fileBytes, std::uint64_t& entries) {
   while (!readName(stream).empty()) {
     const std::string type = readName(stream);

@@ -24,24 +24,25 @@ struct ExrPartShape {
   Precision precision = Precision::Half;  ///< Half where all channels are
 };
 
-/// Walks the attributes of all headers and fails where a size exceeds the file, since OpenEXR takes memory
-/// for an attribute before it reads it, and where headers are out of all proportion to the file. Returns the
-/// file's size in bytes.
+/// Walks the attributes of all headers and fails where a size exceeds the file, since OpenEXR takes
+/// memory for an attribute before it reads it, and where headers are out of all proportion to the
+/// file. Returns the file's size in bytes.
 Result<std::uint64_t> checkExrFile(const std::filesystem::path& path);
 
 /// Fails on deep, integer and subsampled parts, and on more than 16384 pixels a side.
 Result<ExrPartShape> exrPartShape(const Imf::Header& header, const std::string& where);
 
-/// Fails where `values` floats are out of all proportion to the size of the file that claims to hold them.
+/// Fails where `values` floats are out of all proportion to the size of the file that claims to
+/// hold them.
 Result<void> checkExrMemory(std::uint64_t values, std::uint64_t fileBytes, const std::string& where);
 
-/// Fails where opening a part, for which OpenEXR takes the memory of some rows with all their channels, is
-/// out of proportion to the file.
+/// Fails where opening a part, for which OpenEXR takes the memory of some rows with all their
+/// channels, is out of proportion to the file.
 Result<void> checkExrPart(const Imf::Header& header, std::uint64_t fileBytes, const std::string& where);
 
-/// For an image of `values` floats that is much larger than its file: unpacks these channels of the part once
-/// into the memory of a single row, so that pixels that are not there are known before memory is taken.
-/// Throws what OpenEXR throws.
+/// For an image of `values` floats that is much larger than its file: unpacks these channels of the
+/// part once into the memory of a single row, so that pixels that are not there are known before
+/// memory is taken. Throws what OpenEXR throws.
 void proveExrPart(Imf::InputPart& part, const std::vector<std::string>& channels, std::uint64_t values,
                   std::uint64_t fileBytes);
 

@@ -16,7 +16,8 @@
 namespace weft {
 namespace {
 
-// A picture may lie in a larger black one; when that is much larger, memory is no longer in proportion.
+// A picture may lie in a larger black one; when that is much larger, memory is no longer in
+// proportion.
 constexpr std::int64_t kMostMargin = 64;
 constexpr std::int64_t kFreePixels = std::int64_t{1} << 22;
 
@@ -93,7 +94,8 @@ FloatImage readChroma(const std::string& path, const ExrLayer& picture) {
   return image;
 }
 
-/// The pixels of a data window as the display window shows them, which is black where there are none.
+/// The pixels of a data window as the display window shows them, which is black where there are
+/// none.
 FloatImage placed(FloatImage pixels, const Imath::Box2i& data, const Imath::Box2i& display) {
   if (isSame(data, display)) return pixels;
   const Size size = sizeOf(display);

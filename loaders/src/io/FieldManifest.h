@@ -9,7 +9,8 @@
 
 namespace weft {
 
-/// The JSON text in the header of a reflectance field file: everything but the numbers (docs/file-format.md).
+/// The JSON text in the header of a reflectance field file: everything but the numbers
+/// (docs/file-format.md).
 struct FieldManifest {
   struct Size {
     int width = 0;

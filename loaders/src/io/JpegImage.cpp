@@ -21,9 +21,11 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// A progressive JPEG is decoded as a whole for each of its scans, of which a small file may claim many.
+// A progressive JPEG is decoded as a whole for each of its scans, of which a small file may claim
+// many.
 constexpr int kMostScans = 500;
-// Arithmetic coding has no least number of bits; larger pictures coded so are measured by Huffman's.
+// Arithmetic coding has no least number of bits; larger pictures coded so are measured by
+// Huffman's.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 
 /// What libjpeg has to say, and where it then goes on.
@@ -38,8 +40,8 @@ struct Failure : jpeg_error_mgr {
   std::longjmp(failure->jump, 1);
 }
 
-/// Whether a warning leaves all pixels as they are: cameras write a wrong spectral selection, and bytes
-/// between the last row and the end.
+/// Whether a warning leaves all pixels as they are: cameras write a wrong spectral selection, and
+/// bytes between the last row and the end.
 bool isHarmless(const jpeg_error_mgr& warning) {
   switch (warning.msg_code) {
     case JWRN_JFIF_MAJOR:
@@ -59,8 +61,9 @@ bool isUnsupported(int message) {
   return std::ranges::find(kinds, message) != kinds.end();
 }
 
-/// Every image gets a decoder of its own: one that is used again would lend its tables to an image that lacks
-/// them, so that the result depended on what was decoded before. It costs 2 % of decoding 256 x 256 pixels.
+/// Every image gets a decoder of its own: one that is used again would lend its tables to an image
+/// that lacks them, so that the result depended on what was decoded before. It costs 2 % of
+/// decoding 256 x 256 pixels.
 class JpegDecoder {
  public:
   JpegDecoder() {
@@ -127,8 +130,8 @@ tl::unexpected<Error> JpegDecoder::failure(const std::string& where) const {
   return fail("this kind of JPEG is not supported: " + reason, where, "save it as an ordinary JPEG or a PNG");
 }
 
-/// At least a bit for a block of 8 x 8 pixels in a scan: of its mean, and, where it is not in another scan,
-/// of its end.
+/// At least a bit for a block of 8 x 8 pixels in a scan: of its mean, and, where it is not in
+/// another scan, of its end.
 bool fitsIntoFile(const jpeg_decompress_struct& jpeg, std::size_t fileBytes) {
   std::uint64_t blocks = 0, samples = 0;
   for (int i = 0; i < jpeg.num_components; ++i) {

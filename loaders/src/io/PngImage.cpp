@@ -49,8 +49,8 @@ PngChunks findChunks(Bytes bytes) {
   return chunks;
 }
 
-/// libpng's reader of an image in memory. It takes rows as they are stored; the simplified interface would
-/// apply gamma, and take 16 bits for linear.
+/// libpng's reader of an image in memory. It takes rows as they are stored; the simplified
+/// interface would apply gamma, and take 16 bits for linear.
 class PngDecoder {
  public:
   explicit PngDecoder(Bytes bytes) : left_(bytes) {}
@@ -104,7 +104,8 @@ bool PngDecoder::readHeader() {
   if (!info_) return false;
   png_set_read_fn(png_, this, readBytes);
   png_set_benign_errors(png_, 1);
-  // Gamma, profiles and texts, which may be large when unpacked, are not looked at; transparency is.
+  // Gamma, profiles and texts, which may be large when unpacked, are not looked at; transparency
+  // is.
   png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png_, info_);
   return true;

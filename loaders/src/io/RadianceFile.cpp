@@ -60,7 +60,8 @@ class ByteReader {
     pixel.e = byte();
     return pixel;
   }
-  /// Up to a line's end, which is taken along: of the kind that the first line has. Without blanks around.
+  /// Up to a line's end, which is taken along: of the kind that the first line has. Without blanks
+  /// around.
   std::string_view line() {
     const char* begin = reinterpret_cast<const char*>(bytes_.data());
     const void* end = bytes_.empty() ? nullptr : std::memchr(begin, lineEnd_, bytes_.size());
@@ -92,8 +93,8 @@ std::optional<std::array<double, count>> numbersOf(std::string_view text) {
   return trimmed(text).empty() ? std::optional(numbers) : std::nullopt;
 }
 
-/// "-Y HEIGHT" or one of its kin: the numbers, from the top, that scan lines or the pixels of one are counted
-/// by.
+/// "-Y HEIGHT" or one of its kin: the numbers, from the top, that scan lines or the pixels of one
+/// are counted by.
 struct Axis {
   char name = 'Y';
   bool increasing = false;
@@ -156,8 +157,9 @@ Result<void> readVariable(std::string_view line, Header& header, const std::stri
   return {};
 }
 
-/// The broken header of ATRIUM's pictures says columns first, but rows follow, the lowest first. A square
-/// picture of that header is taken for such a one, and one whose lines say that they are as long as rows.
+/// The broken header of ATRIUM's pictures says columns first, but rows follow, the lowest first. A
+/// square picture of that header is taken for such a one, and one whose lines say that they are as
+/// long as rows.
 void mendOrder(std::span<const std::uint8_t> data, Header& header, std::vector<std::string>& warnings) {
   if (header.lines.name != 'X' || !header.lines.increasing || header.pixels.increasing) return;
   const bool saysRow =
@@ -204,7 +206,8 @@ bool readNewRow(ByteReader& reader, std::vector<Rgbe>& row) {
   return !reader.failed();
 }
 
-/// Whole pixels, of which (1, 1, 1, n) repeats the one before n times; several in a row count in base 256.
+/// Whole pixels, of which (1, 1, 1, n) repeats the one before n times; several in a row count in
+/// base 256.
 bool readOldRow(ByteReader& reader, Rgbe first, std::vector<Rgbe>& row) {
   int shift = 0;
   for (std::size_t x = 0; x < row.size();) {

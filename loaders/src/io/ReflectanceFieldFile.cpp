@@ -67,9 +67,9 @@ Imf::Header partHeader(const FloatImage& image, const std::string& name, const F
   return header;
 }
 
-// A part as a file of its own in memory. OpenEXR would pack a part on one thread, or on a pool of threads
-// that it shares with the rest of the program; so every thread packs other parts, and blocks are copied as
-// they are.
+// A part as a file of its own in memory. OpenEXR would pack a part on one thread, or on a pool of
+// threads that it shares with the rest of the program; so every thread packs other parts, and
+// blocks are copied as they are.
 std::string packedPart(const FloatImage& image, int layer) {
   Imf::StdOSStream stream;
   {

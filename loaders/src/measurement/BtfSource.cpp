@@ -47,7 +47,8 @@ Result<std::unique_ptr<BtfSource>> openBtf(const fs::path& path, const BtfOption
   const bool isFolder = status.type() == fs::file_type::directory;
   if (!isFolder) WEFT_TRY_VOID(regularFileSize(path));
   const fs::path whole = fs::absolute(path, error).lexically_normal();
-  const fs::path named = whole.has_filename() ? whole : whole.parent_path();  // "wool/" is named wool
+  // "wool/" is named wool
+  const fs::path named = whole.has_filename() ? whole : whole.parent_path();
   const std::string name = isFolder ? named.filename().string() : named.stem().string();
   if (!isFolder && isLightList(path.string())) return openLightList(path, name, options);
 

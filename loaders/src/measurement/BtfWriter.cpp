@@ -50,7 +50,8 @@ std::string entryName(const BtfDescription& d, std::size_t view, std::size_t lig
                      v.theta, v.phi, light, l.theta, l.phi);
 }
 
-// Encodes a view when libzip asks for the first of its images, and keeps it until the next one is asked for.
+// Encodes a view when libzip asks for the first of its images, and keeps it until the next one is
+// asked for.
 class ViewEncoder {
  public:
   using ReadView = std::function<Result<void>(int view, std::span<float> out)>;

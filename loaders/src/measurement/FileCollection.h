@@ -23,8 +23,8 @@ class FileCollection {
   virtual Result<std::uint64_t> checksum(int index) const = 0;
 };
 
-/// All files below a folder, sorted by name. Fails on a folder that may not be read, and on more than a
-/// million files.
+/// All files below a folder, sorted by name. Fails on a folder that may not be read, and on more
+/// than a million files.
 Result<std::unique_ptr<FileCollection>> openFolder(const std::filesystem::path& path);
 
 /// Files named relative to a folder.

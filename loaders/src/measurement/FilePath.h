@@ -15,9 +15,11 @@ std::string extensionOf(std::string_view path);  ///< ".jpg", in lower case; emp
 
 /// Whether the name is that of an image that is read: JPEG or PNG, by its extension.
 bool isReadableImage(std::string_view path);
-/// Whether the name is that of an image, in any format that measurements are taken in or exported to.
+/// Whether the name is that of an image, in any format that measurements are taken in or exported
+/// to.
 bool isAnyImage(std::string_view path);
-/// What systems and viewers leave among the files of people: hidden files, macOS's __MACOSX, thumbnails.
+/// What systems and viewers leave among the files of people: hidden files, macOS's __MACOSX,
+/// thumbnails.
 bool isClutter(std::string_view path);
 
 /// The first few of many names, for a message: "a.png, b.png, c.png and 46 more".

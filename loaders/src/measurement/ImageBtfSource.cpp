@@ -17,8 +17,9 @@ namespace {
 // Images wait as a batch for being transposed, so that what is written to a texel is a long run.
 constexpr std::size_t kBatchBytes = std::size_t{128} << 20;
 
-// Bytes from an image to the next in a batch. An odd number of cache lines, because a texel is gathered from
-// all images, and lines at a distance of a power of two compete for the same place in the cache.
+// Bytes from an image to the next in a batch. An odd number of cache lines, because a texel is
+// gathered from all images, and lines at a distance of a power of two compete for the same place in
+// the cache.
 std::size_t batchStride(std::size_t imageBytes) {
   constexpr std::size_t kLine = 64;
   return ((imageBytes + kLine - 1) / kLine | 1) * kLine;

@@ -12,8 +12,8 @@ namespace weft {
 /// A BTF with one image a pair of directions, all read with as many bits as the first: 8, or 16.
 class ImageBtfSource : public BtfSource {
  public:
-  /// `description` lacks the size, which the first image has; `fileOfPair[view][light]` are indices into
-  /// `files`; `where` names the measurement in failures.
+  /// `description` lacks the size, which the first image has; `fileOfPair[view][light]` are indices
+  /// into `files`; `where` names the measurement in failures.
   static Result<std::unique_ptr<BtfSource>> create(BtfDescription description,
                                                    std::unique_ptr<FileCollection> files,
                                                    std::vector<int> fileOfPair, std::string where);

@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// Finds the images that a light list means among those that are there: by path, else by name, else by name
-/// without its extension; each without difference of case and of Unicode's normal forms.
+/// Finds the images that a light list means among those that are there: by path, else by name, else
+/// by name without its extension; each without difference of case and of Unicode's normal forms.
 class ImageFinder {
  public:
   struct Match {
@@ -19,11 +19,13 @@ class ImageFinder {
     bool hasOtherExtension = false;
   };
 
-  /// `files`: paths relative to the list's folder, '/' between their parts; empty ones are passed over.
+  /// `files`: paths relative to the list's folder, '/' between their parts; empty ones are passed
+  /// over.
   explicit ImageFinder(std::vector<std::string> files);
 
-  /// Nothing where no file fits. Fails, naming both, where two fit equally well: of several, the one in the
-  /// same folder fits best, then the one in a folder of the same name, then the one in the same case.
+  /// Nothing where no file fits. Fails, naming both, where two fit equally well: of several, the
+  /// one in the same folder fits best, then the one in a folder of the same name, then the one in
+  /// the same case.
   Result<std::optional<Match>> find(std::string_view listed) const;
 
   int count() const { return static_cast<int>(files_.size()); }

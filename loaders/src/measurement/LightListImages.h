@@ -17,8 +17,8 @@ struct LitImage {
   int file = 0;        ///< ImageFinder's
 };
 
-/// The image of every light. Warns of counts that are one off and of images that are found by another
-/// extension; fails on other counts, on images that are not there, and on the same twice.
+/// The image of every light. Warns of counts that are one off and of images that are found by
+/// another extension; fails on other counts, on images that are not there, and on the same twice.
 Result<std::vector<LitImage>> imagesOfLights(const LightListLines& list, const ImageFinder& finder,
                                              const BtfOptions& options, const std::string& where,
                                              std::vector<std::string>& warnings);

@@ -22,9 +22,9 @@ struct LightListLines {
   std::vector<ListedLight> lights;
 };
 
-/// Reads the text of a light list: in UTF-8 or UTF-16, with any line ends, decimal points or commas. Fails,
-/// naming the line, on anything but a count and then an image and three numbers a line: a fourth number is no
-/// part of a name that has an extension.
+/// Reads the text of a light list: in UTF-8 or UTF-16, with any line ends, decimal points or
+/// commas. Fails, naming the line, on anything but a count and then an image and three numbers a
+/// line: a fourth number is no part of a name that has an extension.
 Result<LightListLines> parseLightList(std::string_view bytes, const std::string& where);
 
 /// Whether the name ends in a word that is a number, "coin 12": perhaps one of four.

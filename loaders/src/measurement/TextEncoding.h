@@ -7,9 +7,9 @@
 
 namespace weft {
 
-/// A text file's contents in UTF-8 without a byte order mark: UTF-16 is told by its mark, what is neither
-/// that nor UTF-8 is taken as Latin-1, as old Windows programs write it. Fails on UTF-16 that is cut off or
-/// damaged.
+/// A text file's contents in UTF-8 without a byte order mark: UTF-16 is told by its mark, what is
+/// neither that nor UTF-8 is taken as Latin-1, as old Windows programs write it. Fails on UTF-16
+/// that is cut off or damaged.
 Result<std::string> textInUtf8(std::string_view bytes, const std::string& where);
 
 /// The same for what has no mark: a file's name.

@@ -10,8 +10,8 @@ namespace weft {
 /// Which elements of accessors are read; none: all.
 using ElementChoice = std::optional<std::vector<std::uint32_t>>;
 
-/// An accessor as floats, `components` an element, sparse ones filled in; integers are normalised where the
-/// file says so. The chosen elements must exist. Refuses values that are not finite.
+/// An accessor as floats, `components` an element, sparse ones filled in; integers are normalised
+/// where the file says so. The chosen elements must exist. Refuses values that are not finite.
 Result<std::vector<float>> readFloats(const GltfFile& file, int accessor, std::size_t components,
                                       const ElementChoice& choice = {});
 

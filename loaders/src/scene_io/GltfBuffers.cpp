@@ -11,7 +11,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-/// Whether a buffer only takes the place of one for programs that cannot unpack (EXT_meshopt_compression).
+/// Whether a buffer only takes the place of one for programs that cannot unpack
+/// (EXT_meshopt_compression).
 bool isPlaceholder(const Json& buffer) {
   return buffer.value(Json::json_pointer("/extensions/EXT_meshopt_compression/fallback"), false);
 }

@@ -21,8 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Meshes take 4 to 50 bytes for each of their file (indices of triangles without normals most), packed ones
-// up to hundreds.
+// Meshes take 4 to 50 bytes for each of their file (indices of triangles without normals most),
+// packed ones up to hundreds.
 constexpr std::size_t kFreeMemory = std::size_t{64} << 20;
 constexpr std::size_t kMemoryPerByte = 128, kMemoryPerPackedByte = 1024;
 
@@ -62,8 +62,8 @@ Result<void> checkRequirements(const GltfFile& file, const GltfOptions& options)
   return file.fail("the file requires extensions that Weft does not know: " + names);
 }
 
-/// Leaves tinygltf what it does well: no buffers, which it refuses when they are longer than they say, and
-/// no images.
+/// Leaves tinygltf what it does well: no buffers, which it refuses when they are longer than they
+/// say, and no images.
 Result<void> parseModel(Json root, GltfFile& file) {
   root.erase("buffers");
   root.erase("images");

@@ -21,17 +21,17 @@ struct GltfBuffer {
   std::span<const std::uint8_t> bytes{};
 };
 
-/// A glTF file as tinygltf parsed it, with the checks that tinygltf leaves out: whatever the functions below
-/// hand out lies within the file.
+/// A glTF file as tinygltf parsed it, with the checks that tinygltf leaves out: whatever the
+/// functions below hand out lies within the file.
 struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;  ///< but for what is in its buffers and images
   std::vector<GltfBuffer> buffers;
   GltfContents contents;
-  std::vector<std::string> warnings;  ///< about what was left out
+  std::vector<std::string> warnings;              ///< about what was left out
   std::vector<std::filesystem::path> namedFiles;  ///< all that its uris name, there or not
-  /// So many bytes may be made of it: what a file claims without bytes of its own (zeros, sparse values, one
-  /// accessor in many meshes) must not take more memory than files of its size need.
+  /// So many bytes may be made of it: what a file claims without bytes of its own (zeros, sparse
+  /// values, one accessor in many meshes) must not take more memory than files of its size need.
   std::size_t memoryLimit = 0;
 
   /// Fails with this file as the place.
@@ -44,8 +44,8 @@ struct GltfFile {
   int addBuffer(std::vector<std::uint8_t> bytes);
 };
 
-/// Reads .gltf (with its buffers) or .glb, told by the first bytes; it may require the extensions that Weft
-/// or the options know. Images are left alone: see imageBytes().
+/// Reads .gltf (with its buffers) or .glb, told by the first bytes; it may require the extensions
+/// that Weft or the options know. Images are left alone: see imageBytes().
 Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptions& options);
 
 /// The bytes of a buffer view.
@@ -55,8 +55,9 @@ Result<std::span<const std::uint8_t>> viewBytes(const GltfFile& file, int view);
 Result<std::span<const std::uint8_t>> bytesIn(const GltfFile& file, int buffer, std::size_t offset,
                                               std::size_t length, const std::string& name);
 
-/// A member of an extension that is as many numbers as `otherwise`, which it is where the member is missing;
-/// a single one need not be an array. Fails where it is something else, or not finite as a float.
+/// A member of an extension that is as many numbers as `otherwise`, which it is where the member is
+/// missing; a single one need not be an array. Fails where it is something else, or not finite as a
+/// float.
 Result<std::vector<double>> numbersOf(const GltfFile& file, const std::string& extension,
                                       const tinygltf::Value& value, const std::string& key,
                                       const std::vector<double>& otherwise);

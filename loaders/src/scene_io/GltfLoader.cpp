@@ -31,7 +31,8 @@ constexpr int kDeepestNode = 1000;
 constexpr std::size_t kNodeMemory = 256;   // with its core, and what drawing it takes
 constexpr double kLargestRadius = 1e15;    // squares of distances, times light, are floats ...
 constexpr double kSmallestRadius = 1e-15;  // ... and not 0
-constexpr double kFarthest = 1e13;  // from the origin, in radii: doubles tell places in the scene apart
+// From the origin, in radii: doubles tell places in the scene apart.
+constexpr double kFarthest = 1e13;
 
 /// A node of the file that is still to be read.
 struct Visit {
@@ -196,8 +197,8 @@ class SceneReader {
     const auto instancing = node.extensions.find(kInstancingExtension);
     if (node.skin >= 0) {
       WEFT_TRY(const std::vector<glm::dmat4> joints, jointsOf(node.skin));
-      // A skin places its vertices in the world; glTF says not to heed where the node stands. As floats they
-      // must be near something: where the first joint puts the mesh's origin.
+      // A skin places its vertices in the world; glTF says not to heed where the node stands. As
+      // floats they must be near something: where the first joint puts the mesh's origin.
       const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(joints.front()[3]));
       for (const glm::dmat4& joint : joints) pose.joints.emplace_back(glm::inverse(place) * joint);
       WEFT_TRY(const std::vector<Primitive> primitives, readPrimitives(mesh, pose));

@@ -12,21 +12,22 @@
 
 namespace weft {
 
-/// What glTF makes lighting depend on: lines and points without normals are shown without it, those without
-/// tangents have no normal texture.
+/// What glTF makes lighting depend on: lines and points without normals are shown without it, those
+/// without tangents have no normal texture.
 enum class Shading { Full, WithoutNormalTexture, Unlit };
 
 /// A material, and what it asks of the meshes that wear it.
 struct MeshDress {
   std::shared_ptr<const Material> material{};
-  std::array<int, 2> sets{0, 1};  ///< the file's texture coordinates that become the mesh's two sets
-  int tangentSet = 0;             ///< which of the file's the file's tangents belong to
-  TexturePlacement placement{};   ///< of the mesh's first set, tangents included
+  /// the file's texture coordinates that become the mesh's two sets
+  std::array<int, 2> sets{0, 1};
+  int tangentSet = 0;            ///< which of the file's the file's tangents belong to
+  TexturePlacement placement{};  ///< of the mesh's first set, tangents included
   bool usesTexcoords = false;
 };
 
-/// Makes the materials of a file when they are first asked for, so that what nothing uses, or what the
-/// options replace, may lack its files.
+/// Makes the materials of a file when they are first asked for, so that what nothing uses, or what
+/// the options replace, may lack its files.
 class GltfMaterials {
  public:
   /// All three must outlive this.

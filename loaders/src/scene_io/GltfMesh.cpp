@@ -16,8 +16,8 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-/// The vertices of a primitive: how many its attributes have, and which of them its indices use, where those
-/// are not all. Many primitives may share one long list.
+/// The vertices of a primitive: how many its attributes have, and which of them its indices use,
+/// where those are not all. Many primitives may share one long list.
 struct Vertices {
   std::size_t listed = 0;
   ElementChoice used{};
@@ -227,7 +227,8 @@ bool normalize(std::vector<glm::vec4>& tangents) {
   return true;
 }
 
-/// Moves the first set of texture coordinates as the placement says, and turns the tangents with it.
+/// Moves the first set of texture coordinates as the placement says, and turns the tangents with
+/// it.
 void place(Mesh& mesh, const TexturePlacement& placement) {
   const glm::mat2 matrix = placement.matrix(), frame = placement.tangentFrame();
   for (glm::vec2& uv : mesh.texcoords) uv = matrix * uv + placement.offset;
@@ -256,7 +257,8 @@ Result<void> readTexcoords(const GltfFile& file, const tinygltf::Primitive& prim
   return {};
 }
 
-/// Completes what the shaders need and the file leaves out, or has for another set of texture coordinates.
+/// Completes what the shaders need and the file leaves out, or has for another set of texture
+/// coordinates.
 void complete(Mesh& mesh) {
   if (mesh.topology == Topology::Triangles) {
     if (mesh.normals.empty()) generateNormals(mesh, NormalKind::Flat);

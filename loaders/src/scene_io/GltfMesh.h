@@ -22,9 +22,9 @@ Shading shadingOf(const tinygltf::Primitive& primitive);
 /// A text that is the same for primitives that become the same mesh, but for a skin.
 std::string meshKey(const tinygltf::Primitive& primitive, const MeshDress& dress, const MeshPose& pose);
 
-/// One primitive as lists of triangles, lines or points, with all attributes; normals and tangents are
-/// generated, in the pose, where the file has none that fit. `taken`: the memory of all meshes, to which this
-/// one's is added. `warnings`: gets what the file lacks.
+/// One primitive as lists of triangles, lines or points, with all attributes; normals and tangents
+/// are generated, in the pose, where the file has none that fit. `taken`: the memory of all meshes,
+/// to which this one's is added. `warnings`: gets what the file lacks.
 Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinygltf::Primitive& primitive,
                                              const MeshDress& dress, const MeshPose& pose, std::size_t& taken,
                                              std::vector<std::string>& warnings);

@@ -81,7 +81,8 @@ Result<void> GltfPbr::readTextures(const tinygltf::Material& material, PBROption
   WEFT_TRY(options.normalTexture, texture(material.normalTexture, false, "normal texture" + of));
   WEFT_TRY(options.occlusionTexture, texture(material.occlusionTexture, false, "occlusion texture" + of));
   WEFT_TRY(options.emissionTexture, texture(material.emissiveTexture, true, "emissive texture" + of));
-  // The factors of a texture that is not there mean nothing: most things are no metal, and do not glow.
+  // The factors of a texture that is not there mean nothing: most things are no metal, and do not
+  // glow.
   if (pbr.metallicRoughnessTexture.index >= 0 && !options.metallicRoughnessTexture.image)
     options.metallic = 0.0f;
   if (material.emissiveTexture.index >= 0 && !options.emissionTexture.image) options.emission = glm::vec3(0);
@@ -127,7 +128,8 @@ Result<void> GltfPbr::readSpecular(const tinygltf::Value& extension, const std::
   return {};
 }
 
-/// The same surface in other words: a dielectric that mirrors all, times the colour of its highlights.
+/// The same surface in other words: a dielectric that mirrors all, times the colour of its
+/// highlights.
 Result<void> GltfPbr::readSpecularGlossiness(const tinygltf::Value& extension, const std::string& of,
                                              PBROptions& options) {
   const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {

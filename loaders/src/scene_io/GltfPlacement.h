@@ -8,7 +8,8 @@ namespace weft {
 /// A set of texture coordinates; those of a file are numbered from 0.
 Result<int> texcoordSetFrom(const GltfFile& file, double number);
 
-/// How a texture with these extensions (KHR_texture_transform) lies, on `set` where they name no other.
+/// How a texture with these extensions (KHR_texture_transform) lies, on `set` where they name no
+/// other.
 Result<TexturePlacement> placementFrom(const GltfFile& file, const tinygltf::ExtensionMap& extensions,
                                        int set);
 

@@ -28,8 +28,8 @@ KeyInterval intervalAt(const std::vector<float>& times, double time) {
   return {second - 1, second, (time - start) / seconds, seconds};
 }
 
-/// The keys of a channel: `width` numbers each, of a cubic spline three times as many (tangent in, value,
-/// tangent out).
+/// The keys of a channel: `width` numbers each, of a cubic spline three times as many (tangent in,
+/// value, tangent out).
 struct Keys {
   std::vector<float> times;
   std::vector<float> values;

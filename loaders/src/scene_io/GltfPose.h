@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// Where the nodes of a file stand, each in its parent, and how much of each morph target is in their meshes:
-/// as modelled, or as an animation has it at one time.
+/// Where the nodes of a file stand, each in its parent, and how much of each morph target is in
+/// their meshes: as modelled, or as an animation has it at one time.
 class GltfPose {
  public:
   /// Samples the animation that the options name. `file` must outlive this.

@@ -38,7 +38,8 @@ std::string percentDecoded(std::string_view uri) {
   return decoded;
 }
 
-/// "data:image/png;base64,..." without what stands before the comma; types are told by the bytes themselves.
+/// "data:image/png;base64,..." without what stands before the comma; types are told by the bytes
+/// themselves.
 Result<std::vector<std::uint8_t>> dataOf(const std::filesystem::path& file, std::string_view uri) {
   const std::size_t comma = uri.find(',');
   const auto broken = [&](const char* why) {
@@ -70,7 +71,8 @@ bool isThere(const std::filesystem::path& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-/// The entry of a folder that has this name in another normal form of Unicode; the name where there is none.
+/// The entry of a folder that has this name in another normal form of Unicode; the name where there
+/// is none.
 std::filesystem::path entryNamed(const std::filesystem::path& folder, const std::filesystem::path& name) {
   const std::string composed = composedName(name.string());
   std::error_code ignored;

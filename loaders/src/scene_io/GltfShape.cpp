@@ -10,9 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As files are built: an object has these members, those with "!" always; an array these elements; "*" stands
-// for members of any name. "index" is a whole number of an int, "size" any; other words are types, or objects
-// that are described once. What is not listed is not looked at.
+// As files are built: an object has these members, those with "!" always; an array these elements;
+// "*" stands for members of any name. "index" is a whole number of an int, "size" any; other words
+// are types, or objects that are described once. What is not listed is not looked at.
 constexpr const char* kShapes = R"({
 "file": {
   "asset!": {"version!": "string", "minVersion": "string"},
@@ -130,7 +130,8 @@ std::string quoted(const Json& value) {
 
 /// A number as a whole one from 0 to `largest`.
 std::optional<std::int64_t> wholeNumber(const Json& value, std::int64_t largest) {
-  constexpr double kTooLarge = 9007199254740992.0;  // 2^53: beyond, a double is no longer one whole number
+  // 2^53: beyond, a double is no longer one whole number
+  constexpr double kTooLarge = 9007199254740992.0;
   std::optional<std::int64_t> whole;
   if (value.is_number_float()) {
     const double number = value.get<double>();

@@ -15,8 +15,8 @@ TextureWrap wrapOf(int wrap) {
   return wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::Mirror : TextureWrap::Repeat;
 }
 
-/// glTF leaves the filters to the program where the file names none; of the four kinds of mipmaps Weft has
-/// the best.
+/// glTF leaves the filters to the program where the file names none; of the four kinds of mipmaps
+/// Weft has the best.
 TextureOptions optionsOf(const tinygltf::Sampler& sampler) {
   TextureOptions options{
       .filter = TextureFilter::Mipmapped, .wrap = wrapOf(sampler.wrapS), .wrapV = wrapOf(sampler.wrapT)};

@@ -15,11 +15,11 @@ class GltfTextures {
   /// Both must outlive this.
   GltfTextures(const GltfFile& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
 
-  /// Null, with one warning for all its uses, where the image is missing or broken; fails where the file's
-  /// own references are. `use` is for people.
+  /// Null, with one warning for all its uses, where the image is missing or broken; fails where the
+  /// file's own references are. `use` is for people.
   Result<std::shared_ptr<const TextureChunk>> get(int texture, bool srgb, const std::string& use);
-  /// The roughness, in g, that a texture with a glossiness in its alpha says: 1 - `factor` * alpha. Null
-  /// where it has no alpha, and like get().
+  /// The roughness, in g, that a texture with a glossiness in its alpha says: 1 - `factor` * alpha.
+  /// Null where it has no alpha, and like get().
   Result<std::shared_ptr<const TextureChunk>> roughnessOf(int texture, float factor, const std::string& use);
 
  private:
@@ -38,7 +38,8 @@ class GltfTextures {
   Result<Pixels> image(int index, const tinygltf::Texture& texture, const std::string& use);
   /// Where the bytes of an image are.
   struct Origin {
-    std::string key;    ///< equal for images that are the same bytes: a file may list one many times
+    /// equal for images that are the same bytes: a file may list one many times
+    std::string key;
     std::string where;  ///< for people
   };
   Result<Origin> originOf(int image) const;

@@ -175,7 +175,8 @@ Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
               fmt::format("its cameras are {}", names));
 }
 
-// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show their colour.
+// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show
+// their colour.
 void SceneSetup::addLamps(const SceneOptions& options) {
   const glm::dvec3 center = scene_.bounds.center();
   std::vector<SceneOptions::Lamp> lamps = options.lamps;

@@ -23,15 +23,16 @@ Images packed(const ReflectanceField& field, bool prepared) {
   const auto add = [&](int unit, TextureImage& image) {
     if (!image.empty()) images[unit] = std::make_shared<const TextureImage>(std::move(image));
   };
-  add(bindings::layerNumbersUnit, textures.layers);
-  add(bindings::sharedNumbersUnit, textures.shared);
-  add(bindings::preparedNumbersUnit, textures.preparedLayers);
+  add(bindings::layerParametersUnit, textures.layers);
+  add(bindings::sharedParametersUnit, textures.shared);
+  add(bindings::preparedParametersUnit, textures.preparedLayers);
   int unit = bindings::firstTableUnit;
   for (auto& [name, table] : textures.tables) add(unit++, table);
   return images;
 }
 
-// What is packed; with a source only until it is on a GPU: then the next to ask has all of it made anew.
+// What is packed; with a source only until it is on a GPU: then the next to ask has all of it made
+// anew.
 class PackedField {
  public:
   PackedField(Images images, bool prepared, BTFTextures::FieldSource source)

@@ -45,10 +45,10 @@ float BumpModel::evaluate(std::span<const float> shared, std::span<const float>,
 
 // The split sum, as of glTF's materials (pbr.frag), around the texel's own normal.
 glm::vec3 BumpModel::underEnvironment(std::span<const float> shared, std::span<const float>, glm::vec3 view,
-                                      const SurfaceLight& light) const {
+                                      const EnvironmentIntegrals& light) const {
   constexpr float kF0 = 0.04f;
   const glm::vec3 n = directionFromParabolic({shared[1], shared[2]});
-  return (1.0f - light.glossyShare(n, view, shared[3], kF0)) * shared[0] * light.matt(n) +
+  return (1.0f - light.glossyShare(n, view, shared[3], kF0)) * shared[0] * light.diffuse(n) +
          light.glossy(n, view, shared[3], kF0);
 }
 

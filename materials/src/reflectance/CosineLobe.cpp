@@ -7,9 +7,10 @@
 namespace weft {
 
 CosineLobe lobeAboveHorizon(glm::vec3 t, float exponent, glm::vec3 normal) {
-  // n.l of the lobe's directions: c times what they have of t, plus what they have across it, of variance 1 /
-  // (n + 3) along each axis. Of a normal distribution of that mean, the mean of max(0, n.l) is nearly half of
-  // mean + root; the other factors bring all three numbers close to their integrals for exponents from 1.
+  // n.l of the lobe's directions: c times what they have of t, plus what they have across it, of
+  // variance 1 / (n + 3) along each axis. Of a normal distribution of that mean, the mean of max(0,
+  // n.l) is nearly half of mean + root; the other factors bring all three numbers close to their
+  // integrals for exponents from 1.
   const float c = glm::dot(t, normal);
   const float narrow = 1.0f / (exponent + 2.0f);
   const float mean = c * (1.0f - narrow);

@@ -76,7 +76,8 @@ struct Softbox {
 };
 
 glm::vec3 studioRadiance(glm::vec3 direction) {
-  // Key from the upper left in front, fill from the right, rim from behind; +Z is where the viewer stands.
+  // Key from the upper left in front, fill from the right, rim from behind; +Z is where the viewer
+  // stands.
   static const std::array<Softbox, 3> boxes{{{{-0.9f, 0.9f, 0.9f}, {0.45f, 0.45f}, {5.4f, 5.16f, 4.8f}},
                                              {{1.0f, 0.35f, 0.8f}, {0.35f, 0.7f}, {0.96f, 1.08f, 1.26f}},
                                              {{0.5f, 0.8f, -1.0f}, {0.6f, 0.25f}, {3.6f, 3.72f, 3.96f}}}};
@@ -96,7 +97,8 @@ glm::vec3 skyRadiance(glm::vec3 direction) {
   glm::vec3 sky = glm::mix(haze, zenith, height);
   sky += 0.5f * glm::vec3(1.0f, 0.85f, 0.6f) * std::pow(std::max(towardsSun, 0.0f), 24.0f);
   glm::vec3 sum = glm::mix(ground, sky, softStep(1.0f - up, 1.0f, 0.02f));
-  // Larger than the real one, so that a picture of 1024 columns holds it, and as bright as a hazy noon.
+  // Larger than the real one, so that a picture of 1024 columns holds it, and as bright as a hazy
+  // noon.
   constexpr float kSunRadius = 0.02f;
   sum += softStep(std::acos(towardsSun), kSunRadius, 0.01f) * glm::vec3(1900.0f, 1700.0f, 1400.0f);
   return sum;
@@ -108,8 +110,8 @@ struct Builtin {
 };
 constexpr std::array kBuiltins{Builtin{"studio", studioRadiance}, Builtin{"sky", skyRadiance}};
 
-/// The share of row or column `from` (of `fromCount`) in each of `toCount` that it touches: where it starts
-/// and ends in their units.
+/// The share of row or column `from` (of `fromCount`) in each of `toCount` that it touches: where
+/// it starts and ends in their units.
 struct Overlap {
   int first;
   std::vector<double> shares;

@@ -107,7 +107,7 @@ ModelledLights FieldFormula::modelledLights(std::span<const glm::vec3> lights) c
 }
 
 glm::vec3 FieldFormula::underEnvironment(std::span<const float> shared, std::span<const float> layer,
-                                         glm::vec3 view, const SurfaceLight& light) const {
+                                         glm::vec3 view, const EnvironmentIntegrals& light) const {
   expectNumbers(shared, layer);
   return model_->colorUnderEnvironment(shared, layer, notBelow(view, lowestViewZ_), light);
 }

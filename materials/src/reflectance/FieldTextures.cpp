@@ -23,7 +23,7 @@ int levelsOf(const ReflectanceField& field) {
 TextureImage packShared(const ReflectanceField& field) {
   const ReflectanceModel& model = field.model();
   const int texels = FieldTextures::sharedTexels(model), channels = model.colorChannels();
-  const std::size_t numbers = model.sharedNumbers().size();
+  const std::size_t numbers = model.sharedParameters().size();
   TextureImage packed(field.width(), field.height(), channels * texels, 4, field.shared().precision(),
                       levelsOf(field));
   for (int level = 0; level < levelsOf(field); ++level) {
@@ -47,7 +47,7 @@ TextureImage packLayers(const ReflectanceField& field, Change change) {
   if (layers == 0) return {};
   const ReflectanceModel& model = field.model();
   const int texels = FieldTextures::layerTexels(model), channels = model.colorChannels();
-  const std::size_t numbers = model.layerNumbers().size();
+  const std::size_t numbers = model.layerParameters().size();
   TextureImage packed(field.width(), field.height(), layers * channels * texels, 4,
                       field.layers().precision(), levelsOf(field));
   for (int level = 0; level < levelsOf(field); ++level) {
@@ -63,7 +63,7 @@ TextureImage packLayers(const ReflectanceField& field, Change change) {
 }
 
 TextureImage packPreparedLayers(const ReflectanceField& field) {
-  std::vector<float> prepared(field.model().layerNumbers().size());
+  std::vector<float> prepared(field.model().layerParameters().size());
   return packLayers(field, [&](std::span<const float> numbers) {
     std::ranges::copy(numbers, prepared.begin());
     field.model().prepareForEnvironments(prepared);
@@ -129,11 +129,11 @@ FieldTextures FieldTextures::create(const ReflectanceField& field, bool prepared
 }
 
 int FieldTextures::sharedTexels(const ReflectanceModel& model) {
-  return (3 + static_cast<int>(model.sharedNumbers().size()) + 3) / 4;
+  return (3 + static_cast<int>(model.sharedParameters().size()) + 3) / 4;
 }
 
 int FieldTextures::layerTexels(const ReflectanceModel& model) {
-  return (static_cast<int>(model.layerNumbers().size()) + 3) / 4;
+  return (static_cast<int>(model.layerParameters().size()) + 3) / 4;
 }
 
 int FieldTextures::arrayLayers(const FieldFormula& formula) {
@@ -141,7 +141,7 @@ int FieldTextures::arrayLayers(const FieldFormula& formula) {
 }
 
 bool FieldTextures::canBePrepared(const FieldFormula& formula) {
-  std::vector<float> numbers(formula.model().layerNumbers().size());
+  std::vector<float> numbers(formula.model().layerParameters().size());
   return formula.integratesEnvironments() && !numbers.empty() &&
          formula.model().prepareForEnvironments(numbers);
 }

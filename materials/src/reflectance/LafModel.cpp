@@ -33,7 +33,7 @@ LayerDirections LafModel::layerDirections() const {
   return hasViewFactor_ ? LayerDirections::Views : LayerDirections::None;
 }
 
-std::vector<std::string> LafModel::sharedNumbers() const {
+std::vector<std::string> LafModel::sharedParameters() const {
   std::vector<std::string> names{"rho_d"};
   for (int j = 0; j < lobes_; ++j)
     for (const char* part : {"amplitude", "p", "q", "exponent"})
@@ -41,7 +41,7 @@ std::vector<std::string> LafModel::sharedNumbers() const {
   return names;
 }
 
-std::vector<std::string> LafModel::layerNumbers() const {
+std::vector<std::string> LafModel::layerParameters() const {
   if (hasViewFactor_) return {"view_factor"};
   return {};
 }
@@ -60,8 +60,8 @@ float LafModel::evaluate(std::span<const float> shared, std::span<const float> l
 
 // (C . (l v))^n = |t|^n (t . l / |t|)^n with t = C v: lobes of the light as those of `rfnl`.
 glm::vec3 LafModel::underEnvironment(std::span<const float> shared, std::span<const float> layer,
-                                     glm::vec3 view, const SurfaceLight& light) const {
-  glm::vec3 value = shared[0] * light.matt({0, 0, 1});
+                                     glm::vec3 view, const EnvironmentIntegrals& light) const {
+  glm::vec3 value = shared[0] * light.diffuse({0, 0, 1});
   for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = shared.subspan(1 + 4 * j, 4);
     const glm::vec3 t = lafAxes({lobe[1], lobe[2]}) * view;

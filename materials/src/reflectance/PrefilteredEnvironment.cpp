@@ -24,7 +24,8 @@ double roughnessOf(int layer) {
   return static_cast<double>(layer) / (PrefilteredEnvironment::kGlossyLayers - 1);
 }
 
-/// Microfacets of GGX as they are seen head-on: light at `cosine` is reflected where they lean half as far.
+/// Microfacets of GGX as they are seen head-on: light at `cosine` is reflected where they lean half
+/// as far.
 double glossyKernel(double roughness, double cosine) {
   if (cosine <= 0.0) return 0.0;
   const double squared = std::pow(roughness, 4.0);
@@ -57,8 +58,8 @@ class Pyramid {
   std::vector<Environment> levels_;
 };
 
-/// The kernel's average around a direction, sampled where the kernel is large, each sample as wide as the
-/// samples are apart.
+/// The kernel's average around a direction, sampled where the kernel is large, each sample as wide
+/// as the samples are apart.
 glm::vec3 sampledGlossy(const Pyramid& pyramid, glm::vec3 direction, double roughness) {
   if (roughness == 0.0)
     return pyramid.around(direction, 4.0 * kPi / std::pow(PrefilteredEnvironment::kGlossyMap.size, 2));

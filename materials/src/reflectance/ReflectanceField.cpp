@@ -9,8 +9,8 @@
 namespace weft {
 namespace {
 
-Result<void> checkNumbers(const FloatImage& image, const std::vector<std::string>& channels,
-                          std::string_view what) {
+Result<void> checkParameters(const FloatImage& image, const std::vector<std::string>& channels,
+                             std::string_view what) {
   if (image.channels() != channels)
     return fail(fmt::format("the {} numbers are not those of the model", what));
   for (float value : image.values())
@@ -26,8 +26,8 @@ Result<void> checkLevel(const FieldLevel& level, const FieldFormula& formula) {
         fmt::format("{} layers are described and {} are there", formula.layerCount(), layers.layers()));
   if (!layers.empty() && (layers.width() != shared.width() || layers.height() != shared.height()))
     return fail("shared and layer numbers differ in size");
-  WEFT_TRY_VOID(checkNumbers(shared, formula.model().sharedChannels(), "shared"));
-  return checkNumbers(layers, formula.model().layerChannels(), "layer");
+  WEFT_TRY_VOID(checkParameters(shared, formula.model().sharedChannels(), "shared"));
+  return checkParameters(layers, formula.model().layerChannels(), "layer");
 }
 
 // The sides of all but the first, whose numbers have been checked.
@@ -95,7 +95,8 @@ glm::vec3 ReflectanceField::evaluate(int x, int y, glm::vec3 light, glm::vec3 vi
   return evaluate(x, y, formula_.layersAround(light, view), light, view);
 }
 
-glm::vec3 ReflectanceField::underEnvironment(int x, int y, glm::vec3 view, const SurfaceLight& light) const {
+glm::vec3 ReflectanceField::underEnvironment(int x, int y, glm::vec3 view,
+                                             const EnvironmentIntegrals& light) const {
   glm::vec3 sum(0.0f);
   if (!formula_.integratesEnvironments()) {
     const LightQuadrature& quadrature = formula_.quadrature();

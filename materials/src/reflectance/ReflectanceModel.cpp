@@ -34,13 +34,13 @@ Result<std::shared_ptr<const ReflectanceModel>> ReflectanceModel::bind(
 
 std::vector<std::string> ReflectanceModel::sharedChannels() const {
   std::vector<std::string> channels{"R", "G", "B"};
-  append(channels, sharedNumbers(), colorChannels_);
+  append(channels, sharedParameters(), colorChannels_);
   return channels;
 }
 
 std::vector<std::string> ReflectanceModel::layerChannels() const {
   std::vector<std::string> channels;
-  append(channels, layerNumbers(), colorChannels_);
+  append(channels, layerParameters(), colorChannels_);
   return channels;
 }
 
@@ -60,7 +60,7 @@ glm::vec3 ReflectanceModel::evaluateColor(std::span<const float> shared, std::sp
 }
 
 glm::vec3 ReflectanceModel::underEnvironment(std::span<const float>, std::span<const float>, glm::vec3,
-                                             const SurfaceLight&) const {
+                                             const EnvironmentIntegrals&) const {
   contractBroken(__FILE__, __LINE__, "the model integrates environments");
 }
 
@@ -92,7 +92,7 @@ void ReflectanceModel::evaluateColors(std::span<const float> shared, std::span<c
 }
 
 glm::vec3 ReflectanceModel::colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer,
-                                                  glm::vec3 view, const SurfaceLight& light) const {
+                                                  glm::vec3 view, const EnvironmentIntegrals& light) const {
   WEFT_EXPECT(shared.size() >= 3, "shared numbers begin with the base colour");
   const glm::vec3 baseColor(shared[0], shared[1], shared[2]);
   const auto channels = static_cast<std::size_t>(colorChannels_);

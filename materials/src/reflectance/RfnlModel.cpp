@@ -38,12 +38,12 @@ RfnlModel::RfnlModel(ModelOptions options, LayerDirections layerDirections)
       lobes_(this->options().number("lobes")),
       ownDiffuseAlbedo_(this->options().word("rho_d") == "per-view") {}
 
-std::vector<std::string> RfnlModel::sharedNumbers() const {
+std::vector<std::string> RfnlModel::sharedParameters() const {
   if (ownDiffuseAlbedo_) return {};
   return {"rho_d"};
 }
 
-std::vector<std::string> RfnlModel::layerNumbers() const {
+std::vector<std::string> RfnlModel::layerParameters() const {
   std::vector<std::string> names;
   for (int j = 0; j < lobes_; ++j)
     for (const char* part : {"amplitude", "px", "py", "exponent"})
@@ -74,10 +74,10 @@ void RfnlModel::evaluateLights(std::span<const float> shared, std::span<const fl
   for (float& value : values) value = std::max(value, 0.0f);
 }
 
-// Paper M 5.2.
+// [Meseth 2004] 5.2.
 glm::vec3 RfnlModel::underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3,
-                                      const SurfaceLight& light) const {
-  glm::vec3 value = diffuseAlbedoOf(shared, layer) * light.matt({0, 0, 1});
+                                      const EnvironmentIntegrals& light) const {
+  glm::vec3 value = diffuseAlbedoOf(shared, layer) * light.diffuse({0, 0, 1});
   for (std::size_t j = 0; j < static_cast<std::size_t>(lobes_); ++j) {
     const auto lobe = layer.subspan(4 * j, 4);
     if (lobe[0] != 0.0f) value += lobe[0] * light.lobe(directionFromParabolic({lobe[1], lobe[2]}), lobe[3]);

@@ -36,7 +36,7 @@ std::vector<ModelType> RfpModel::types() {
   return types;
 }
 
-std::vector<std::string> RfpModel::layerNumbers() const {
+std::vector<std::string> RfpModel::layerParameters() const {
   return {"a0", "a1", "a2", "a3", "a4", "a5"};
 }
 
@@ -47,7 +47,7 @@ float RfpModel::evaluate(std::span<const float>, std::span<const float> a, glm::
 
 // Exact, but that it is the integral that is clamped and not the polynomial.
 glm::vec3 RfpModel::underEnvironment(std::span<const float>, std::span<const float> a, glm::vec3,
-                                     const SurfaceLight& light) const {
+                                     const EnvironmentIntegrals& light) const {
   const std::array<glm::vec3, 6> moments = light.moments();
   glm::vec3 value(0.0f);
   for (std::size_t i = 0; i < 6; ++i) value += a[i] * moments[i];

@@ -66,7 +66,8 @@ void SphericalHarmonics::legendre(double cosine, std::vector<double>& values) co
 
 void SphericalHarmonics::evaluate(glm::vec3 direction, float* values) const {
   thread_local std::vector<double> heights;
-  thread_local std::vector<glm::dvec2> multiples;  // cosine and sine of the multiples of the azimuth
+  // cosine and sine of the multiples of the azimuth
+  thread_local std::vector<glm::dvec2> multiples;
   legendre(direction.y, heights);
   const glm::dvec2 step = azimuthOf(direction);
   multiples.assign(1, {1.0, 0.0});
@@ -158,7 +159,8 @@ FloatImage SphericalHarmonics::onMap(const Matrix& coefficients, OctahedralMap m
   const auto functions = static_cast<int>(coefficients.cols());
   FloatImage image(map.imageSize(), map.imageSize(), {"R", "G", "B"}, functions / 3);
 
-  // The directions of an octant; flipping signs gives all others, and keeps or turns each class of harmonics.
+  // The directions of an octant; flipping signs gives all others, and keeps or turns each class of
+  // harmonics.
   std::vector<glm::ivec2> octant;
   const int half = map.size / 2;
   for (int y = 0; y < half; ++y)

@@ -12,8 +12,9 @@
 
 namespace weft {
 
-/// Functions on the sphere as sums of real spherical harmonics up to a degree: convolving one with a kernel
-/// that depends on an angle alone is a multiplication of each degree (Funk and Hecke's theorem).
+/// Functions on the sphere as sums of real spherical harmonics up to a degree: convolving one with
+/// a kernel that depends on an angle alone is a multiplication of each degree (Funk and Hecke's
+/// theorem).
 class SphericalHarmonics {
  public:
   using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -22,12 +23,13 @@ class SphericalHarmonics {
 
   int count() const { return (degree_ + 1) * (degree_ + 1); }
 
-  /// The coefficients [harmonic][function] of radiance times each of the weights, three functions (R, G, B) a
-  /// weight. Texels count as points of their solid angle.
+  /// The coefficients [harmonic][function] of radiance times each of the weights, three functions
+  /// (R, G, B) a weight. Texels count as points of their solid angle.
   Matrix coefficients(const Environment& environment,
                       std::span<const std::function<float(glm::vec3)>> weights) const;
 
-  /// What the harmonics of each degree are multiplied by to convolve with a kernel of the angle's cosine.
+  /// What the harmonics of each degree are multiplied by to convolve with a kernel of the angle's
+  /// cosine.
   std::vector<double> zonal(const std::function<double(double cosine)>& kernel) const;
 
   /// Writes three of the functions after another, multiplied by zonal factors.

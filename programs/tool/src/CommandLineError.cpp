@@ -109,7 +109,8 @@ std::optional<std::string> notConverted(CLI::App& app, const std::string& messag
 }  // namespace
 
 std::string explain(CLI::App& app, const CLI::ParseError& error) {
-  if (const auto text = unknownOption(app)) return *text;  // whatever else is missing follows from it
+  // whatever else is missing follows from it
+  if (const auto text = unknownOption(app)) return *text;
   if (dynamic_cast<const CLI::ValidationError*>(&error))
     if (const auto text = refusedValue(app)) return *text;
   if (dynamic_cast<const CLI::ConversionError*>(&error))

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Errors of a question about a file mean no: what is wrong with it is told by who reads or writes it.
+// Errors of a question about a file mean no: what is wrong with it is told by who reads or writes
+// it.
 bool isSame(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored);

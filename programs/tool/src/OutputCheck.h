@@ -11,8 +11,8 @@ namespace weft {
 /// The files and folders that are there among the words of a command line, NAME=FILE included.
 std::vector<std::filesystem::path> existingFiles(const std::vector<std::string>& words);
 
-/// Whether an output can be written and replaces no input: neither one of `inputs` nor, where that is a
-/// folder or a list of photographs, a picture of it.
+/// Whether an output can be written and replaces no input: neither one of `inputs` nor, where that
+/// is a folder or a list of photographs, a picture of it.
 Result<void> checkOutputFile(const std::filesystem::path& output,
                              const std::vector<std::filesystem::path>& inputs);
 

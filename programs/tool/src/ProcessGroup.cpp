@@ -13,8 +13,8 @@ namespace weft {
 #ifdef WEFT_MPI
 namespace {
 
-// Starting MPI costs a second and complains in containers, so only where a launcher asks for it: OpenMPI's,
-// those that speak PMI (MPICH, Slurm).
+// Starting MPI costs a second and complains in containers, so only where a launcher asks for it:
+// OpenMPI's, those that speak PMI (MPICH, Slurm).
 bool startedByLauncher() {
   constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"};
   return std::ranges::any_of(variables, [](const char* name) { return std::getenv(name) != nullptr; });

@@ -229,7 +229,8 @@ TEST(BakeGeometry, TwoByTwoPeriodsAreTheSameSurface) {
     double difference = 0.0;
     for (std::size_t light = 0; light < 81; ++light)
       for (std::size_t row = 0; row < kSize; ++row)
-        for (std::size_t i = 0; i < kSize * 3; ++i) {  // the same texels have the same random numbers
+        // The same texels have the same random numbers.
+        for (std::size_t i = 0; i < kSize * 3; ++i) {
           const float value = a[(light * kSize + row) * kSize * 3 + i];
           sum += static_cast<double>(value);
           difference +=

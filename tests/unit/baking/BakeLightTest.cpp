@@ -1,4 +1,5 @@
-// How much light a baked BTF holds: its own BRDF, interreflections, energy, and the same on every run.
+// How much light a baked BTF holds: its own BRDF, interreflections, energy, and the same on every
+// run.
 
 #include <tbb/global_control.h>
 
@@ -24,7 +25,8 @@ std::vector<float> bakeView(const BtfBaker& baker, int view) {
   return out;
 }
 
-/// GGX in double precision, written with slopes (tangents) and Smith's Lambda instead of the baker's form.
+/// GGX in double precision, written with slopes (tangents) and Smith's Lambda instead of the
+/// baker's form.
 double specularBrdf(double alpha, glm::dvec3 v, glm::dvec3 l) {
   const glm::dvec3 h = glm::normalize(v + l);
   const auto squaredTangent = [](glm::dvec3 d) { return (1.0 - d.z * d.z) / (d.z * d.z); };
@@ -83,8 +85,8 @@ TEST(BakeLight, OneBounceInAGrooveIsTheFormFactorOfTheOtherFace) {
   const std::vector<float> values = bakeView(test::valueOf(BtfBaker::create(field, options)), 0);
   const double direct = static_cast<double>(kAlbedo) * std::sqrt(0.5);
   for (int column = 0; column < options.width; ++column) {
-    // At the distance s from the bottom, along a face of length sqrt 2, the other face fills (1 - s /
-    // sqrt(s^2 + 2)) / 2 of the cosine-weighted hemisphere.
+    // At the distance s from the bottom, along a face of length sqrt 2, the other face fills (1 - s
+    // / sqrt(s^2 + 2)) / 2 of the cosine-weighted hemisphere.
     double indirect = 0.0;
     constexpr int kSteps = 64;
     for (int step = 0; step < kSteps; ++step) {
@@ -107,8 +109,8 @@ double underWhiteSky(const HeightField& field, glm::vec3 view, int bounces) {
   options.samples = 8;
   options.views = {view};
   options.lights.clear();
-  // Uniform in the projected disk: each light stands for an equal share of the irradiance of a sky that is
-  // dark below 85 degrees, which takes 0.8 % of it.
+  // Uniform in the projected disk: each light stands for an equal share of the irradiance of a sky
+  // that is dark below 85 degrees, which takes 0.8 % of it.
   constexpr int kRings = 12;
   for (int ring = 0; ring < kRings; ++ring)
     for (int i = 0; i < 24; ++i) {

@@ -16,7 +16,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 using Kind = ReferenceLight::Kind;
 
-// A square of side 2 in the plane z = 0. The columns of the image run along `right`, its rows against `up`.
+// A square of side 2 in the plane z = 0. The columns of the image run along `right`, its rows
+// against `up`.
 ReferenceMesh square(glm::vec3 right = {1, 0, 0}, glm::vec3 up = {0, 1, 0}) {
   ReferenceMesh mesh;
   for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
@@ -68,7 +69,8 @@ glm::vec3 rgbAt(const FloatImage& image, int x, int y) {
   return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
 }
 
-// The direction from (0, 0, 3) through the middle of a pixel, in a picture whose half height is 1 at z = 0.
+// The direction from (0, 0, 3) through the middle of a pixel, in a picture whose half height is 1
+// at z = 0.
 glm::vec3 rayThrough(const ReferenceShot& shot, int x, int y) {
   const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / glm::vec2(shot.width, shot.height) * 2.0f - 1.0f;
   const float aspect = static_cast<float>(shot.width) / static_cast<float>(shot.height);
@@ -213,7 +215,8 @@ TEST(ReferenceRenderer, ShadowsFallWhereTheLightIsHidden) {
   shot.lights = {{Kind::Directional, {-0.6f, 0, 1}, glm::vec3(1)}};  // the shadow: 0.6 +- 0.25
   for (const auto& [x, lit] : {std::pair(0.45f, false), {0.75f, false}, {0.95f, true}, {-0.6f, true}})
     EXPECT_EQ(litAt(x), lit) << x;
-  shot.lights = {{Kind::Point, {-0.6f, 0, 2}, glm::vec3(1)}};  // from -0.6 through +-0.25: 0.6 +- 0.5
+  // from -0.6 through +-0.25: 0.6 +- 0.5
+  shot.lights = {{Kind::Point, {-0.6f, 0, 2}, glm::vec3(1)}};
   for (const auto& [x, lit] : {std::pair(0.45f, false), {0.95f, false}, {-0.6f, true}})
     EXPECT_EQ(litAt(x), lit) << x;
   shot.lights[0].place.z = 0.5f;  // below the small square

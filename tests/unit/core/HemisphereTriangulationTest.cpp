@@ -117,7 +117,8 @@ TEST(HemisphereTriangulation, NoDirectionLiesInACircumcircle) {
                                            b.x * glm::dot(c, c) - c.x * glm::dot(b, b)) /
                                 (2.0 * area);
       const double radius = glm::length(centre);
-      if (radius > 1e3) continue;  // three points almost on a line: nothing to test against in doubles
+      // three points almost on a line: nothing to test against in doubles
+      if (radius > 1e3) continue;
       for (glm::vec3 other : set)
         EXPECT_GT(glm::distance(pointOf(other), p[0] + centre), radius * (1.0 - 1e-4)) << "ties are allowed";
     }
@@ -167,7 +168,8 @@ TEST(HemisphereTriangulation, BelowTheLowestRingOnlyTheTwoNeighboursCount) {
     }
 }
 
-// The value at every direction is that of a bumpy function; a jump between triangles would show as a step.
+// The value at every direction is that of a bumpy function; a jump between triangles would show as
+// a step.
 TEST(HemisphereTriangulation, InterpolatesContinuously) {
   const std::vector<glm::vec3> set = ubo2003();
   const auto triangulation = valueOf(HemisphereTriangulation::create(set));

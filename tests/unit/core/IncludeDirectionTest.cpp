@@ -106,7 +106,8 @@ std::vector<std::string> wrongIncludes(const fs::path& root, const Libraries& li
   return wrong;
 }
 
-// A header that defines classes is named after one of them, or after what they are: Light.h holds PointLight.
+// A header that defines classes is named after one of them, or after what they are: Light.h holds
+// PointLight.
 std::vector<std::string> wrongHeaderNames(const fs::path& root, const Libraries& libraries) {
   static const std::regex definition(R"((?:^|\n)class (\w+)[^;{]*\{)");
   std::vector<std::string> wrong;

@@ -26,7 +26,8 @@ Result<void> checkQuarter(int value) {
 }
 
 Result<std::unique_ptr<int>> onTheHeap(int value) {
-  WEFT_TRY(auto number, Result<std::unique_ptr<int>>(std::make_unique<int>(value)));  // moved, never copied
+  // moved, never copied
+  WEFT_TRY(auto number, Result<std::unique_ptr<int>>(std::make_unique<int>(value)));
   return number;
 }
 

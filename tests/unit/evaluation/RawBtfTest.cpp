@@ -44,7 +44,8 @@ TEST(RawBtf, GivesTheMeasurementWhereItWasMeasured) {
 }
 
 TEST(RawBtf, InterpolatesLinearlyInTheParabolicPlane) {
-  // Linear in the parabolic coordinates of view and light, so that interpolation is exact within the hulls.
+  // Linear in the parabolic coordinates of view and light, so that interpolation is exact within
+  // the hulls.
   const auto linear = [](int, int, glm::vec3 v, glm::vec3 l) {
     const glm::vec2 p = parabolicFromDirection(v), q = parabolicFromDirection(l);
     return glm::vec3(1.0f + p.x - 0.5f * p.y + 0.3f * q.x + 0.8f * q.y, (1 + p.x) * (2 + q.y), 2 + q.x);

@@ -55,7 +55,8 @@ float valueOfSurface(const Surface& surface, glm::vec3 view, glm::vec3 light) {
   return model->evaluate(std::array{surface.albedo, p.x, p.y, surface.roughness}, {}, light, view);
 }
 
-// A quarter of all lights, on one side; not where the highlight is, which alone tells the roughness.
+// A quarter of all lights, on one side; not where the highlight is, which alone tells the
+// roughness.
 bool isShadowed(int x, glm::vec3 light) {
   return glm::dot(light, directionFromDegrees(90.0, 77.0 * x + 120.0)) > 0.55f;
 }
@@ -95,7 +96,8 @@ TEST(BumpFitter, BlackConstantAndBrokenTexelsGiveFiniteNumbers) {
   const MemoryBtf source(3, 1, [](int x, int, glm::vec3, glm::vec3) {
     return glm::vec3(x == 0 ? 0.0f : x == 1 ? 0.5f : std::numeric_limits<float>::quiet_NaN());
   });
-  const FitResult fit = valueOf(fitReflectanceField(source, bumpOptions()));  // refuses what is not finite
+  // refuses what is not finite
+  const FitResult fit = valueOf(fitReflectanceField(source, bumpOptions()));
   for (int x : {0, 2}) {
     EXPECT_EQ(surfaceAt(fit.field, x).albedo, 0.0f);
     EXPECT_EQ(surfaceAt(fit.field, x).normal, glm::vec3(0.0f, 0.0f, 1.0f));

@@ -1,4 +1,5 @@
-// Lights on and below the horizon: whatever their images show, fits and errors are those without them.
+// Lights on and below the horizon: whatever their images show, fits and errors are those without
+// them.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -39,7 +40,8 @@ void expectSameFits(const FitOptions& options, bool oneView) {
   EXPECT_EQ(fit.field.description().lights, expected.field.description().lights) << model;
   EXPECT_TRUE(std::ranges::equal(fit.field.shared().values(), expected.field.shared().values())) << model;
   EXPECT_TRUE(std::ranges::equal(fit.field.layers().values(), expected.field.layers().values())) << model;
-  for (const ErrorSpace space : {ErrorSpace::Stored, ErrorSpace::Linear})  // but for the order of sums
+  // but for the order of sums
+  for (const ErrorSpace space : {ErrorSpace::Stored, ErrorSpace::Linear})
     EXPECT_NEAR(fit.errors.of(space, ErrorMeasure::Rgb).average,
                 expected.errors.of(space, ErrorMeasure::Rgb).average, 1e-7)
         << model;

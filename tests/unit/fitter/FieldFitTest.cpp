@@ -117,8 +117,8 @@ TEST(FieldFit, AChannelMayBeBlack) {
   }
 }
 
-// The papers' way: the stored values are a polynomial, so that a literal fit is exact and one of linear
-// values is not.
+// The papers' way: the stored values are a polynomial, so that a literal fit is exact and one of
+// linear values is not.
 TEST(FieldFit, StoredValuesCanBeFittedLiterally) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) {
     return decode(Encoding::Gamma22, glm::vec3(0.5f + 0.3f * l.x - 0.2f * l.y * l.y));
@@ -155,8 +155,8 @@ TEST(FieldFit, MoreLobesFitBetter) {
             3.0 * epsilon(valueOf(fitReflectanceField(source, optionsFor("rfnl")))));
 }
 
-// conventions.md, "Cosine": whether or not the data contain n.l, a white surface comes out as l.z, up to the
-// horizon.
+// conventions.md, "Cosine": whether or not the data contain n.l, a white surface comes out as l.z,
+// up to the horizon.
 TEST(FieldFit, WhiteLambertianIsTheCosineForDataWithAndWithoutIt) {
   for (const char* model : {"rfp", "rfnl"})
     for (bool cosineInData : {true, false}) {
@@ -282,8 +282,9 @@ TEST(FieldFit, ProgressEndsAtOne) {
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-// The figures of quick fits (models.md): luminance of stored values .023 and .032 with two lobes, .035 and
-// .042 with the polynomial; linear .016, .024 and .029, .035: within 15 % on a part of the real materials.
+// The figures of quick fits (models.md): luminance of stored values .023 and .032 with two lobes,
+// .035 and .042 with the polynomial; linear .016, .024 and .029, .035: within 15 % on a part of the
+// real materials.
 TEST(FieldFit, ReachesTheKnownErrorsOnRealMaterials) {
   struct Known {
     const char* file;

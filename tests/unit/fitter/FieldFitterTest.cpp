@@ -43,8 +43,8 @@ class MeanModel : public RfpModel {
   }
 };
 
-// Two tables: the mean of all texels, then the differences of about every fifth texel from it. A texel gets
-// its own mean less both.
+// Two tables: the mean of all texels, then the differences of about every fifth texel from it. A
+// texel gets its own mean less both.
 class MeanFitter : public FieldFitter {
  public:
   int gatheringPasses() const override { return 2; }

@@ -155,7 +155,7 @@ TEST(LafFit, OneViewIsEnough) {
   }
 }
 
-// M 5.3: the largest value over what a view's brightest sample is.
+// [Meseth 2004] 5.3: the largest value over what a view's brightest sample is.
 double whitestPixel(const ReflectanceField& field, int x, std::span<const glm::vec3> samples) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -177,7 +177,8 @@ double whitestPixel(const ReflectanceField& field, int x, std::span<const glm::v
   return whitest;
 }
 
-// The order of table 1 of M, bounds a few percent above what is known of this row, and no white pixels.
+// The order of table 1 of M, bounds a few percent above what is known of this row, and no white
+// pixels.
 TEST(LafFit, SlafLiesBetweenRfnlAndLafOnRealMaterials) {
   struct Known {
     const char* file;

@@ -117,7 +117,8 @@ TEST(LafSolver, PairsThatNoLobeTellsApartAreOne) {
     for (std::size_t l = 0; l < v; ++l) EXPECT_EQ(groups[v * 81 + l], groups[l * 81 + v]);
 }
 
-// Noise of 100 % and ten lobes to chase it: values between the samples stay below the ceilings all the same.
+// Noise of 100 % and ten lobes to chase it: values between the samples stay below the ceilings all
+// the same.
 TEST(LafSolver, LimitedFitsHaveNoWhitePixels) {
   LafTexels texels = syntheticLafTexels(10, 1.0f, test::ubo2003Sampling());
   const LafSolver solver(texels.problem);

@@ -29,8 +29,8 @@ float reflectance(glm::vec3 v, glm::vec3 l) {
          0.3f * std::pow(std::max(glm::dot(broad, l), 0.0f), 3.0f);
 }
 
-// Every other sample is brighter than the model can be beside the others, and counts ten times as much: the
-// sum is far from its minimum wherever weights are ignored, or not squared.
+// Every other sample is brighter than the model can be beside the others, and counts ten times as
+// much: the sum is far from its minimum wherever weights are ignored, or not squared.
 class LeastSquaresOfFitters : public testing::TestWithParam<std::tuple<std::string, bool>> {
  protected:
   LeastSquaresOfFitters() {
@@ -57,15 +57,15 @@ class LeastSquaresOfFitters : public testing::TestWithParam<std::tuple<std::stri
 
   Numbers fit(const FitProblem& with, const std::vector<float>& factors) const {
     const auto fitter = valueOf(FitterRegistry::builtin().create(with));
-    Numbers numbers{std::vector<float>(problem.model->sharedNumbers().size()),
-                    std::vector<float>(problem.model->layerNumbers().size() * layerCount())};
+    Numbers numbers{std::vector<float>(problem.model->sharedParameters().size()),
+                    std::vector<float>(problem.model->layerParameters().size() * layerCount())};
     dynamic_cast<const TexelFieldFitter&>(*fitter).texelFitter().fit(targets, factors, numbers.shared,
                                                                      numbers.layers);
     return numbers;
   }
 
   double cost(const Numbers& numbers, std::size_t view, std::size_t light) const {
-    const std::size_t count = problem.model->layerNumbers().size();
+    const std::size_t count = problem.model->layerParameters().size();
     std::span<const float> layer;
     if (layerCount() > 0)
       layer = std::span(numbers.layers).subspan(count * (isOfLights() ? light : view), count);
@@ -109,7 +109,7 @@ class LeastSquaresOfFitters : public testing::TestWithParam<std::tuple<std::stri
   double largestGain(Numbers numbers) const {
     double gain = 0.0;
     for (float& number : numbers.shared) gain = std::max(gain, gainOf(number, [&] { return cost(numbers); }));
-    const std::size_t count = problem.model->layerNumbers().size();
+    const std::size_t count = problem.model->layerParameters().size();
     for (std::size_t i = 0; i < numbers.layers.size(); ++i)
       gain = std::max(gain, gainOf(numbers.layers[i], [&] { return layerCost(numbers, i / count); }));
     return gain;

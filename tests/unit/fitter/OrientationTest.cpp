@@ -1,5 +1,6 @@
-// That images are the right way round, proved on measured materials and on what is fitted to them: columns
-// run along +x, rows against +y (docs/conventions.md says what each score means and what it came to).
+// That images are the right way round, proved on measured materials and on what is fitted to them:
+// columns run along +x, rows against +y (docs/conventions.md says what each score means and what it
+// came to).
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,8 @@ double azimuth(glm::vec3 direction) {
   return std::atan2(static_cast<double>(direction.y), static_cast<double>(direction.x));
 }
 
-/// The luminance of a material in pictures: measured or fitted, 64 x 64 texels, for every view and light.
+/// The luminance of a material in pictures: measured or fitted, 64 x 64 texels, for every view and
+/// light.
 struct Material {
   std::vector<glm::vec3> views;
   std::vector<glm::vec3> lights;
@@ -92,16 +94,17 @@ FloatImage topView(const Material& material, double theta, double phi) {
 
 // --- Ribs, lights against views, shadows ---
 
-/// The flank score with +x for growing columns, or with +y for growing rows: negative where rows run against
-/// y.
+/// The flank score with +x for growing columns, or with +y for growing rows: negative where rows
+/// run against y.
 double ribScore(const Material& material, Axis axis) {
   const bool columns = axis == Axis::Columns;
   return test::flankScore(topView(material, 30, columns ? 0 : 90), topView(material, 30, columns ? 180 : 270),
                           axis);
 }
 
-/// How the brightness of the top view under a ring of lights agrees with that of the ring of views under the
-/// light from the top, their azimuths p exchanged for `turn` + `sign` p: light may travel either way.
+/// How the brightness of the top view under a ring of lights agrees with that of the ring of views
+/// under the light from the top, their azimuths p exchanged for `turn` + `sign` p: light may travel
+/// either way.
 double reciprocity(const Material& material, double theta, int sign, double turn) {
   std::vector<double> byLight, byView;
   for (const int light : ring(material.lights, theta)) {
@@ -123,8 +126,8 @@ double darkness(const FloatImage& image) {
   return std::log(at(0.1) / at(0.5) + 1e-3);
 }
 
-/// By how much shadows are paler seen from the light than from opposite, for views near one axis; what is
-/// typical of a view and of a light is taken off.
+/// By how much shadows are paler seen from the light than from opposite, for views near one axis;
+/// what is typical of a view and of a light is taken off.
 double hiddenShadows(const Material& material, Axis axis) {
   const std::vector<int> views = ring(material.views, 60);
   const std::vector<int> lights = ring(material.lights, 60);  // of the same directions
@@ -169,7 +172,8 @@ FloatImage boxFiltered(const FloatImage& image, int radius) {
   return result;
 }
 
-/// What is left of a view when brightness and slow changes are taken off, under 17 lights from all around.
+/// What is left of a view when brightness and slow changes are taken off, under 17 lights from all
+/// around.
 std::vector<FloatImage> detail(const Material& material, int view) {
   std::vector<int> lights{0};
   for (int k = 0; k < 6; ++k) lights.push_back(indexOf(material.lights, 30, 60 * k));
@@ -186,8 +190,8 @@ std::vector<FloatImage> detail(const Material& material, int view) {
   return details;
 }
 
-/// The cosine between the interior of `top`, some columns of it, and `other` moved there from (dx, dy) texels
-/// away.
+/// The cosine between the interior of `top`, some columns of it, and `other` moved there from (dx,
+/// dy) texels away.
 float match(const FloatImage& top, const FloatImage& other, const std::vector<int>& columns, int dx, int dy) {
   float ab = 0.0f, aa = 0.0f, bb = 0.0f;
   const float* a = top.values().data();
@@ -216,9 +220,9 @@ std::vector<int> interiorColumns(int width) {
   return columns;
 }
 
-/// How well the displacement of views of theta 60 against the top view follows what stands above the plane of
-/// the texels: -tan theta (cos p, sin p), with x along the columns times `columnSign`, y along the rows times
-/// `rowSign`.
+/// How well the displacement of views of theta 60 against the top view follows what stands above
+/// the plane of the texels: -tan theta (cos p, sin p), with x along the columns times `columnSign`,
+/// y along the rows times `rowSign`.
 class Parallax {
  public:
   explicit Parallax(const Material& material) {
@@ -256,8 +260,9 @@ class Parallax {
   std::vector<glm::vec2> shifts_, expected_;
 };
 
-/// The height above the plane of texels, in texels, at which some columns look alike in the top view and in
-/// the views of polar angle `theta` from near +y and -y, columns running along +x and rows against +y.
+/// The height above the plane of texels, in texels, at which some columns look alike in the top
+/// view and in the views of polar angle `theta` from near +y and -y, columns running along +x and
+/// rows against +y.
 double heightOf(const Material& material, const std::vector<int>& columns, double theta) {
   constexpr int kSteps = 4;  // a texel
   constexpr int kHighest = 6;
@@ -310,7 +315,8 @@ double reliefOf(const Material& material) {
 
 // --- Blur by foreshortening ---
 
-/// Where power spectra are compared: frequencies of 0.03 to 0.3 cycles a texel, as multiples of 1/64.
+/// Where power spectra are compared: frequencies of 0.03 to 0.3 cycles a texel, as multiples of
+/// 1/64.
 struct Frequency {
   int x;  // along the columns
   int y;  // down the rows
@@ -328,7 +334,8 @@ std::vector<Frequency> comparedFrequencies(int size) {
   return frequencies;
 }
 
-/// The power of an image's relative contrast at the frequencies, under a Hann window, for a variance of 1.
+/// The power of an image's relative contrast at the frequencies, under a Hann window, for a
+/// variance of 1.
 class PowerSpectrum {
  public:
   explicit PowerSpectrum(int size)
@@ -379,8 +386,8 @@ class PowerSpectrum {
   std::vector<std::complex<double>> wave_;
 };
 
-/// A view at 75 degrees is squeezed along its azimuth and stretched again when it is rectified, so that its
-/// detail is missing along that direction.
+/// A view at 75 degrees is squeezed along its azimuth and stretched again when it is rectified, so
+/// that its detail is missing along that direction.
 class Foreshortening {
  public:
   explicit Foreshortening(const Material& material) {
@@ -403,7 +410,8 @@ class Foreshortening {
     for (const auto& one : logPower) fit(spectrum.frequencies(), one, mean);
   }
 
-  /// 1 where power is missing exactly along the azimuth of every view; y runs along the rows times `rowSign`.
+  /// 1 where power is missing exactly along the azimuth of every view; y runs along the rows times
+  /// `rowSign`.
   double score(double rowSign) const {
     double sum = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < azimuths_.size(); ++i) {
@@ -414,7 +422,8 @@ class Foreshortening {
   }
 
  private:
-  // Least squares on kx^2 - ky^2 and 2 kx ky, which are orthogonal to each other and to all that is round.
+  // Least squares on kx^2 - ky^2 and 2 kx ky, which are orthogonal to each other and to all that is
+  // round.
   void fit(const std::vector<Frequency>& frequencies, const std::vector<double>& power,
            const std::vector<double>& mean) {
     double along = 0.0, across = 0.0, alongSquares = 0.0, acrossSquares = 0.0;
@@ -487,8 +496,8 @@ TEST_P(OrientationTest, WhatStandsHighMovesAgainstTheView) {
   expectParallax(measured(open(file)));
 }
 
-// A surface below the plane of its texels would move like one above it in a picture turned by 180 degrees; so
-// ask how crests move against valleys.
+// A surface below the plane of its texels would move like one above it in a picture turned by 180
+// degrees; so ask how crests move against valleys.
 TEST_P(OrientationTest, CrestsMoveMoreThanValleys) {
   WEFT_DATA_FILE(file, fileName());
   EXPECT_GT(printed("relief", reliefOf(measured(open(file)))), 0.6);

@@ -9,7 +9,7 @@
 #include "TestSupport.h"
 #include "weft/fitter/FieldFit.h"
 
-// Paper M 5.3: a lobe that no measured light holds may shine as a white pixel in between.
+// [Meseth 2004] 5.3: a lobe that no measured light holds may shine as a white pixel in between.
 
 namespace weft {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 using test::MemoryBtf;
 using test::valueOf;
 
-// A dull surface with shadows and a highlight of which the measured lights see the foot: texel x turns it
-// around between the lights, texel y lowers it to the horizon and below.
+// A dull surface with shadows and a highlight of which the measured lights see the foot: texel x
+// turns it around between the lights, texel y lowers it to the horizon and below.
 glm::vec3 footOfAHighlight(int x, int y, glm::vec3 v, glm::vec3 l) {
   const float azimuth = 0.13f * static_cast<float>(x) + std::atan2(v.y, v.x);
   const float elevation = 0.15f * static_cast<float>(3 - y);

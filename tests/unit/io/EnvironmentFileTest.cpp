@@ -32,9 +32,9 @@ TEST(EnvironmentFile, OpenExrIsReadToo) {
   EXPECT_THAT(readEnvironment(testFolder() / "b.hdr", warnings).error().message(), HasSubstr("b.hdr"));
 }
 
-// What comes from the cache is what was made. What is not as it was written is made again, and said: a file
-// cut off, one of another picture, and one of which a single bit is another, where the value is as good as
-// any.
+// What comes from the cache is what was made. What is not as it was written is made again, and
+// said: a file cut off, one of another picture, and one of which a single bit is another, where the
+// value is as good as any.
 TEST(EnvironmentCache, GivesBackWhatItWasGiven) {
   const Environment environment = valueOf(Environment::builtin("studio")).reduced(64, 32);
   const auto folder = testFolder() / "cache";

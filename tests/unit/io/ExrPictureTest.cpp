@@ -252,8 +252,8 @@ fs::path blackPicture(int width, int height, Imf::Compression compression) {
   return path;
 }
 
-// Compressions pack a picture of one colour into next to nothing: it is read, and the same file without its
-// end takes no memory.
+// Compressions pack a picture of one colour into next to nothing: it is read, and the same file
+// without its end takes no memory.
 TEST(ExrPicture, ClaimsAreProvedBeforeMemoryIsTaken) {
   for (const auto compression : {Imf::DWAB_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::ZIP_COMPRESSION}) {
     const fs::path file = blackPicture(4096, 2048, compression);

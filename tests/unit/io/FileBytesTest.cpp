@@ -53,7 +53,8 @@ TEST(FileBytes, ThatMayNotBeReadAreNotCalledMissing) {
   }
 }
 
-// Opening a pipe that nobody writes to never ends; every reader that is given a path refuses it at once.
+// Opening a pipe that nobody writes to never ends; every reader that is given a path refuses it at
+// once.
 TEST(FileBytes, NobodyWaitsForAPipe) {
   const fs::path pipe = test::testFolder() / "pipe.rf.exr";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

@@ -60,7 +60,8 @@ TEST(ImageFile, WritesLinearImagesAsSrgb) {
   requireDone(writePng(file, linear));
   const Image image = valueOf(readImage(file));
   ASSERT_EQ(image.channels, 3);
-  const std::vector<int> expectedRed{0, 188, 255, 255, 0, 0, 255};  // 0.5 is 188 by the standard's curve
+  // 0.5 is 188 by the standard's curve
+  const std::vector<int> expectedRed{0, 188, 255, 255, 0, 0, 255};
   for (int x = 0; x < 7; ++x) {
     EXPECT_EQ(image.pixel(x, 0)[0], expectedRed[static_cast<std::size_t>(x)]) << x;
     EXPECT_EQ(image.pixel(x, 0)[1], 0);
@@ -88,7 +89,8 @@ TEST(ImageFile, RefusesEveryTruncation) {
   const test::Bytes png = test::bytesOf(file);
   const test::Bytes jpeg = valueOf(encodeJpeg(gradient(3), 95));
   for (const test::Bytes& whole : {png, jpeg})
-    for (std::size_t size = 0; size + 12 < whole.size(); ++size)  // the PNG's last chunk holds nothing
+    // The PNG's last chunk holds nothing.
+    for (std::size_t size = 0; size + 12 < whole.size(); ++size)
       ASSERT_NE(errorOf(test::Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
                 "decoded")
           << size;

@@ -195,7 +195,8 @@ TEST(PngImage, ClaimsAreProvedBeforeMemoryIsTaken) {
   EXPECT_LT(test::peakMemory() - before, std::uint64_t{60} << 20);
 }
 
-// Palettes and bits become whole bytes, so that a file that deflate could pack takes 30000 times its memory.
+// Palettes and bits become whole bytes, so that a file that deflate could pack takes 30000 times
+// its memory.
 TEST(PngImage, WellPackedPicturesAreProvedBeforeMemoryIsTaken) {
   TestPng image{.width = 8192,
                 .height = 8192,

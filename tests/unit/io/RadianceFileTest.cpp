@@ -179,7 +179,8 @@ TEST(Radiance, WhatIsIgnoredIsSaid) {
   EXPECT_THAT(warningsOf("PRIMARIES=0 0 0 0 0 0 0 0"), testing::IsEmpty());  // Photoshop's
 }
 
-// Old run lengths pack a row of any width into twelve bytes, so a claim is only known by reading the rows.
+// Old run lengths pack a row of any width into twelve bytes, so a claim is only known by reading
+// the rows.
 TEST(Radiance, ClaimsAreProvedBeforeMemoryIsTaken) {
   const auto picture = [](const std::string& size, int rows) {
     Bytes bytes = radiance(kHeader + size, {});

@@ -1,5 +1,5 @@
-// Folders and zips of images named by their angles: which names are understood, and that none is lost without
-// a word.
+// Folders and zips of images named by their angles: which names are understood, and that none is
+// lost without a word.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

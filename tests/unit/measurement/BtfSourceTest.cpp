@@ -34,8 +34,8 @@ Image pairImage(int view, int light) {
                        [&](int x, int y, int c) { return storedValue(view, light, x, y, c); });
 }
 
-// Three views and two lights in UTIA's naming, written in an order that is not the sorted one. PNG, so that
-// values are exact.
+// Three views and two lights in UTIA's naming, written in an order that is not the sorted one. PNG,
+// so that values are exact.
 fs::path makeFolder() {
   const fs::path folder = test::testFolder() / "cloth";
   const std::vector<std::string> views{"tv000_pv000", "tv030_pv090", "tv030_pv180"};
@@ -252,8 +252,8 @@ TEST(BtfSource, ReadsGreyImagesAsRgb) {
   EXPECT_EQ(test::linearSample(rows, 2, 0, 0), glm::vec3(1.0f));
 }
 
-// As they are stored, encoded like 8 bits, whatever the file says of gamma; an image of 8 bits among them
-// too.
+// As they are stored, encoded like 8 bits, whatever the file says of gamma; an image of 8 bits
+// among them too.
 TEST(BtfSource, KeepsAllBitsOfWideImages) {
   const fs::path folder = test::testFolder();
   test::writeBytes(folder / "tl000_pl000_tv000_pv000.png",
@@ -274,7 +274,8 @@ TEST(BtfSource, KeepsAllBitsOfWideImages) {
 // Of the same scene, seen by a camera that was held otherwise.
 TEST(BtfSource, TurnsPhotographsAsTheirExifSays) {
   const fs::path folder = test::testFolder();
-  const auto bright = [](int x, int y) { return x < 8 && y < 16 ? 200 : 40; };  // the upper left of 16 x 32
+  // the upper left of 16 x 32
+  const auto bright = [](int x, int y) { return x < 8 && y < 16 ? 200 : 40; };
   const Image upright = test::imageOf(16, 32, [&](int x, int y, int) { return bright(x, y); });
   const Image lying = test::imageOf(32, 16, [&](int x, int y, int) { return bright(15 - y, x); });
   test::Bytes turned = valueOf(encodeJpeg(lying, 95));
@@ -407,7 +408,8 @@ TEST(BtfSource, MissingMemoryIsAnError) {
   EXPECT_THAT(result.error().message(), HasSubstr("huge: there is no memory for 201326592000000000 bytes"));
 }
 
-// conventions.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60 degrees.
+// conventions.md, "Cosine": measured on the wool seen from above, lights at 15, 30, 45 and 60
+// degrees.
 TEST(BtfSource, WoolFallsOffWithTheCosine) {
   WEFT_DATA_FILE(zip, "ubo2003/UBO_WOOL64.zip");
   const std::unique_ptr<BtfSource> source = valueOf(openBtf(zip));

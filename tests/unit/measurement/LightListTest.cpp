@@ -205,8 +205,8 @@ TEST(LightList, NamesTheImageThatCannotBeRead) {
   EXPECT_THAT(errorOfOpening(list), HasSubstr("dirs.lp: a.png: this is a text, not a JPEG or PNG image"));
 }
 
-// Every list of RealRTI; light vectors of item 11 are .80 to 1.06 long, and one of item 7 lies below the
-// horizon.
+// Every list of RealRTI; light vectors of item 11 are .80 to 1.06 long, and one of item 7 lies
+// below the horizon.
 TEST(LightList, OpensRealLists) {
   WEFT_DATA_FILE(rti, "rti");
   const std::string kDarkLight =

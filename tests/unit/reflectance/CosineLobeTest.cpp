@@ -10,7 +10,8 @@
 namespace weft::test {
 namespace {
 
-// The lobe's integral, mean direction and spread by sums over directions that are spread as the lobe.
+// The lobe's integral, mean direction and spread by sums over directions that are spread as the
+// lobe.
 CosineLobe integrated(glm::vec3 t, float exponent, glm::vec3 normal) {
   constexpr int kSteps = 200;
   const glm::vec3 x = glm::normalize(normal - glm::dot(normal, t) * t);

@@ -29,8 +29,8 @@ TEST(FieldTextures, HoldEveryNumberWhereShadersReadIt) {
     const int channels = model.colorChannels();
     const int sharedTexels = FieldTextures::sharedTexels(model);
     const int layerTexels = FieldTextures::layerTexels(model);
-    const int sharedNumbers = static_cast<int>(model.sharedNumbers().size());
-    const int layerNumbers = static_cast<int>(model.layerNumbers().size());
+    const int sharedParameters = static_cast<int>(model.sharedParameters().size());
+    const int layerParameters = static_cast<int>(model.layerParameters().size());
     EXPECT_EQ(textures.shared.layers(), channels * sharedTexels) << description.name;
     EXPECT_EQ(textures.layers.layers(), FieldTextures::arrayLayers(field.formula())) << description.name;
     for (int y = 0; y < kHeight; ++y)
@@ -38,13 +38,13 @@ TEST(FieldTextures, HoldEveryNumberWhereShadersReadIt) {
         for (int c = 0; c < channels; ++c) {
           for (int i = 0; i < 3; ++i)
             EXPECT_EQ(numberAt(textures.shared, x, y, c * sharedTexels, i), field.shared().at(x, y, i));
-          for (int i = 0; i < sharedNumbers; ++i)
+          for (int i = 0; i < sharedParameters; ++i)
             EXPECT_EQ(numberAt(textures.shared, x, y, c * sharedTexels, 3 + i),
-                      field.shared().at(x, y, 3 + c * sharedNumbers + i));
+                      field.shared().at(x, y, 3 + c * sharedParameters + i));
           for (int layer = 0; layer < field.layers().layers(); ++layer)
-            for (int i = 0; i < layerNumbers; ++i)
+            for (int i = 0; i < layerParameters; ++i)
               EXPECT_EQ(numberAt(textures.layers, x, y, (layer * channels + c) * layerTexels, i),
-                        field.layers().at(x, y, c * layerNumbers + i, layer));
+                        field.layers().at(x, y, c * layerParameters + i, layer));
         }
   }
 }

@@ -67,7 +67,7 @@ TEST(LafModel, PackedAxesComeBackAndAnyTwoNumbersAreAxes) {
 TEST(LafModel, OneToTenLobes) {
   const ModelRegistry registry = ModelRegistry::builtin();
   for (const char* name : {"laf", "slaf"}) {
-    EXPECT_EQ(valueOf(registry.create({.name = name, .options = {{"lobes", 10}}}))->sharedNumbers().size(),
+    EXPECT_EQ(valueOf(registry.create({.name = name, .options = {{"lobes", 10}}}))->sharedParameters().size(),
               41u);
     EXPECT_FALSE(registry.create({.name = name, .options = {{"lobes", 0}}}));
     EXPECT_FALSE(registry.create({.name = name, .options = {{"lobes", 11}}}));

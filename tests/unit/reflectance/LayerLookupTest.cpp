@@ -42,8 +42,8 @@ TEST(LayerLookup, EqualsTheTriangulationButForCubeTexelsAcrossAnEdge) {
     float worst = 0.0f;
     for (float value : difference) worst = std::max(worst, std::abs(value));
     if (worst > 1e-4f) ++across;
-    // A cube texel is at most 1/64 wide, a triangle at least 0.13 high: that much may be given to the wrong
-    // corner.
+    // A cube texel is at most 1/64 wide, a triangle at least 0.13 high: that much may be given to
+    // the wrong corner.
     EXPECT_LT(worst, 0.15f) << direction.x << " " << direction.y << " " << direction.z;
   }
   EXPECT_LT(across, static_cast<int>(directions.size()) / 10);

@@ -48,7 +48,8 @@ TEST(ReflectanceField, IsTheModelTimesTheCosine) {
 TEST(ReflectanceField, WithTheCosineInsideFadesBelowTheLowestMeasuredLight) {
   Parts parts;
   parts.description.hasCosine = true;
-  for (int x = 0; x < 2; ++x) parts.views.at(x, 0, 3, 0) = 1.0f;  // 1 + l.x: tells where it is evaluated
+  // 1 + l.x: tells where it is evaluated
+  for (int x = 0; x < 2; ++x) parts.views.at(x, 0, 3, 0) = 1.0f;
   const ReflectanceField field = valueOf(parts.make());
   const glm::vec3 ring = directionFromDegrees(75, 30);
   EXPECT_NEAR(field.evaluateLayer(0, 0, 0, ring, {0, 0, 1}).x, 1.0f + ring.x, 1e-5);

@@ -97,8 +97,8 @@ TEST(ReflectanceModel, EachColorChannelMayHaveNumbersOfItsOwn) {
   EXPECT_EQ(model->evaluateColor(shared, numbers, kView, kView), glm::vec3(0.5f, 0.5f, 0.75f));
 }
 
-// At the mirror direction of a normal n, seen from 30 degrees off it: n.l (0.96 albedo + F pi D V) with the D
-// and V of glTF's appendix B, where n.h is 1.
+// At the mirror direction of a normal n, seen from 30 degrees off it: n.l (0.96 albedo + F pi D V)
+// with the D and V of glTF's appendix B, where n.h is 1.
 TEST(ReflectanceModel, BumpIsAGlossyDielectricAroundItsOwnNormal) {
   const auto model = valueOf(ModelRegistry::builtin().create({.name = "bump"}));
   EXPECT_EQ(model->layerDirections(), LayerDirections::None);

@@ -92,7 +92,8 @@ TEST(HtmlReport, WhatComesFromOutsideIsText) {
       report.pictures(std::vector<ReportPicture>{{someImage(1, 1), hostile, ColorScale{0, 1, hostile}}}));
   EXPECT_THAT(report.html(), Not(HasSubstr("<script")));
   EXPECT_THAT(report.html(), HasSubstr("<h2>&lt;script&gt;alert(&quot;&amp;&quot;)&lt;/script&gt;</h2>"));
-  EXPECT_EQ(matches(report.html(), "(&lt;script)").size(), 16u);  // the title twice, alt and caption
+  // the title twice, alt and caption
+  EXPECT_EQ(matches(report.html(), "(&lt;script)").size(), 16u);
   EXPECT_THAT(report.html(), Not(HasSubstr("http")));
   expectBalanced(report.html());
 }

@@ -21,7 +21,8 @@ Frustum frustumOf(const Camera& camera, float aspect) {
   return {camera.position(), camera.projection(aspect) * glm::dmat4(glm::dmat3(camera.view))};
 }
 
-/// How far the innermost corner is inside of the plane that it is least inside of, by going over all corners.
+/// How far the innermost corner is inside of the plane that it is least inside of, by going over
+/// all corners.
 double inside(const Box& box, const Frustum& frustum) {
   double least = std::numeric_limits<double>::infinity();
   for (const glm::vec4 plane : frustum.planes) {

@@ -13,8 +13,8 @@ namespace {
 using test::RandomTree;
 using test::Shown;
 
-/// Moeller and Trumbore's way, over every shown triangle, of one node alone or of all: the distance to the
-/// nearest, infinity for none.
+/// Moeller and Trumbore's way, over every shown triangle, of one node alone or of all: the distance
+/// to the nearest, infinity for none.
 double nearestByForce(const Node& root, const Ray& ray, const Node* only = nullptr) {
   std::vector<Shown> shown;
   test::findShown(root, ray.origin, {}, shown);

@@ -37,7 +37,8 @@ void expectWellFormed(const Mesh& mesh) {
     ASSERT_NEAR(glm::dot(tangent, mesh.normals[i]), 0.0f, 1e-5f) << i;
     ASSERT_EQ(std::abs(mesh.tangents[i].w), 1.0f) << i;
   }
-  // Counter-clockwise from the front: the triangle's own normal is on the side of its vertices' normals.
+  // Counter-clockwise from the front: the triangle's own normal is on the side of its vertices'
+  // normals.
   forEachTriangle(mesh, [](const Triangle& t) {
     const glm::vec3 normal = glm::cross(t.position[1] - t.position[0], t.position[2] - t.position[0]);
     ASSERT_GE(glm::dot(normal, t.normal[0] + t.normal[1] + t.normal[2]), -1e-9f);

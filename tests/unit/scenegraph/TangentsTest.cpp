@@ -33,13 +33,15 @@ TEST(Tangents, OfASphereAreTheAnalyticOnes) {
   Mesh mesh = makeSphere(64);
   generateTangents(mesh);
   ASSERT_EQ(mesh.positions.size(), makeSphere(64).positions.size()) << "no vertex is split";
-  // Where the image closes, u = 0 and u = 2 see half of their neighbours: half a cell, 180 / 128 degrees.
+  // Where the image closes, u = 0 and u = 2 see half of their neighbours: half a cell, 180 / 128
+  // degrees.
   EXPECT_LT(worstTangent(mesh, makeSphere(64), 0.95f), 0.0125f * 2.0f);
 }
 
 TEST(Tangents, FollowATurnedImage) {
   Mesh mesh = makePlane(2);
-  for (glm::vec2& uv : mesh.texcoords) uv = {uv.y, 1.0f - uv.x};  // +U down, the image's up to the right
+  // +U down, the image's up to the right
+  for (glm::vec2& uv : mesh.texcoords) uv = {uv.y, 1.0f - uv.x};
   generateTangents(mesh);
   for (const glm::vec4 tangent : mesh.tangents) EXPECT_LT(glm::distance(tangent, {0, -1, 0, 1}), 1e-6f);
 }

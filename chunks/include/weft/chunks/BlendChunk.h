@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// Lets what is behind shine through by the fragment's alpha, colours not premultiplied. A state with one is
-/// drawn after all others, from back to front. Default: no blending.
+/// Lets what is behind shine through by the fragment's alpha, colours not premultiplied. A state
+/// with one is drawn after all others, from back to front. Default: no blending.
 class BlendChunk : public Chunk {
  public:
   BlendChunk() = default;

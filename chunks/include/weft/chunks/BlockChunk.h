@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// Bytes that a program reads as a block: what UniformBlockChunk and StorageBlockChunk have in common.
-/// Default: no buffer.
+/// Bytes that a program reads as a block: what UniformBlockChunk and StorageBlockChunk have in
+/// common. Default: no buffer.
 class BlockChunk : public Chunk {
  public:
   Slot kind() const override { return kind_; }

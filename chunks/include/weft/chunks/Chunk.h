@@ -8,13 +8,13 @@
 
 namespace weft {
 
-/// A shareable unit of GL state, as in OpenSG. After deactivate() the slot is again as GL starts up: that is
-/// the default of every chunk.
+/// A shareable unit of GL state, as in OpenSG. After deactivate() the slot is again as GL starts
+/// up: that is the default of every chunk.
 ///
-/// Making, changing and destroying a chunk touches no GL; its GL objects are made per context when it is
-/// first activated there, and brought up to date at a later activation if it changed. It may be built and
-/// destroyed on any thread, and is not changed while something is rendered. What fails is reported to the
-/// context.
+/// Making, changing and destroying a chunk touches no GL; its GL objects are made per context when
+/// it is first activated there, and brought up to date at a later activation if it changed. It may
+/// be built and destroyed on any thread, and is not changed while something is rendered. What fails
+/// is reported to the context.
 class Chunk {
  public:
   virtual ~Chunk() = default;

@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// Whether fragments behind others are dropped, and whether they count for later ones. Default: no test,
-/// write.
+/// Whether fragments behind others are dropped, and whether they count for later ones. Default: no
+/// test, write.
 class DepthChunk : public Chunk {
  public:
   explicit DepthChunk(bool test = true, bool write = true) : test_(test), write_(write) {}

@@ -27,12 +27,12 @@ struct GLLimits {
   int storageBlockBytes = 0;
 };
 
-/// What Weft has made in one GL context: the GL objects of every chunk and mesh that was drawn there, and the
-/// errors that came up.
+/// What Weft has made in one GL context: the GL objects of every chunk and mesh that was drawn
+/// there, and the errors that came up.
 ///
-/// A window makes one and destroys it, both with its context current; use it only on the thread on which that
-/// context is current. Owners of GL objects know nothing of contexts: they may outlive them, or be destroyed
-/// on any thread; deleteOrphans() then deletes what they left here.
+/// A window makes one and destroys it, both with its context current; use it only on the thread on
+/// which that context is current. Owners of GL objects know nothing of contexts: they may outlive
+/// them, or be destroyed on any thread; deleteOrphans() then deletes what they left here.
 class GLContext {
  public:
   GLContext();
@@ -42,8 +42,9 @@ class GLContext {
 
   const GLLimits& limits() const { return limits_; }
 
-  /// The GL objects of an owner in this context; default-constructed at the first call, deleted after the
-  /// last copy of `owner` is gone. T's destructor runs with the context current. One T an owner.
+  /// The GL objects of an owner in this context; default-constructed at the first call, deleted
+  /// after the last copy of `owner` is gone. T's destructor runs with the context current. One T an
+  /// owner.
   template <class T>
   T& objectsOf(const std::shared_ptr<const void>& owner) {
     Objects& objects = objects_[owner.get()];
@@ -54,8 +55,8 @@ class GLContext {
     return *static_cast<T*>(objects.value.get());
   }
 
-  /// What all owners of a kind share in this context, one of each type: default-constructed at the first
-  /// call.
+  /// What all owners of a kind share in this context, one of each type: default-constructed at the
+  /// first call.
   template <class T>
   T& shared() {
     std::shared_ptr<void>& value = shared_[typeid(T)];
@@ -63,23 +64,24 @@ class GLContext {
     return *static_cast<T*>(value.get());
   }
 
-  /// What every program that is activated is made with beside its own source: what a renderer keeps the same
-  /// for a whole frame, and programs are faster for knowing, as the number of lights.
+  /// What every program that is activated is made with beside its own source: what a renderer keeps
+  /// the same for a whole frame, and programs are faster for knowing, as the number of lights.
   const ShaderVariant& programVariant() const { return programVariant_; }
   void setProgramVariant(ShaderVariant variant);
   /// Another one for another variant.
   std::uint64_t programVariantRevision() const { return programVariantRevision_; }
 
-  /// Where programs of this context look for their files first: to edit shaders while an application runs
-  /// (reloadPrograms()). Empty for nowhere; set it before the first frame.
+  /// Where programs of this context look for their files first: to edit shaders while an
+  /// application runs (reloadPrograms()). Empty for nowhere; set it before the first frame.
   const std::filesystem::path& shaderFolder() const { return shaderFolder_; }
   void setShaderFolder(std::filesystem::path folder) { shaderFolder_ = std::move(folder); }
 
-  /// Deletes the GL objects whose owner is gone, of many owners a share at each call; the renderer calls it
-  /// once a frame.
+  /// Deletes the GL objects whose owner is gone, of many owners a share at each call; the renderer
+  /// calls it once a frame.
   void deleteOrphans();
 
-  /// Remembers an expected failure that came up where GL objects are made (a shader, a texture too large).
+  /// Remembers an expected failure that came up where GL objects are made (a shader, a texture too
+  /// large).
   void report(Error error);
   /// Has something been reported since takeErrors()?
   bool failed() const { return firstError_.has_value(); }
@@ -99,7 +101,8 @@ class GLContext {
   GLLimits limits_;
   std::unordered_map<std::type_index, std::shared_ptr<void>> shared_;
   std::unordered_map<const void*, Objects> objects_;  ///< by the owner's address
-  std::size_t nextBucket_ = 0;                        ///< of objects_, where deleteOrphans() goes on
+  /// of objects_, where deleteOrphans() goes on
+  std::size_t nextBucket_ = 0;
   ShaderVariant programVariant_;
   std::uint64_t programVariantRevision_ = 1;
   std::filesystem::path shaderFolder_;

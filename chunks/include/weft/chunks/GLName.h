@@ -6,13 +6,13 @@
 
 namespace weft {
 
-/// Whether an OpenGL context of any kind is current on this thread. Never fails, as calls of GL do without
-/// one.
+/// Whether an OpenGL context of any kind is current on this thread. Never fails, as calls of GL do
+/// without one.
 bool hasCurrentContext();
 
-/// Owns the name of one GL object, 0 for none. Destroyed where the object's context is current, which
-/// GLContext::objectsOf() takes care of, or where none is because the context has ended, and its objects with
-/// it.
+/// Owns the name of one GL object, 0 for none. Destroyed where the object's context is current,
+/// which GLContext::objectsOf() takes care of, or where none is because the context has ended, and
+/// its objects with it.
 template <class Deleter>
 class GLName {
  public:

@@ -4,9 +4,9 @@
 
 namespace weft {
 
-/// Moves triangles in depth, but not in the picture, so that what lies on a surface does not flicker with it:
-/// by `factor` x their steepness in depth + `units` x the smallest difference that the depth buffer tells
-/// apart. Below 0: towards the viewer. Default: not moved.
+/// Moves triangles in depth, but not in the picture, so that what lies on a surface does not
+/// flicker with it: by `factor` x their steepness in depth + `units` x the smallest difference that
+/// the depth buffer tells apart. Below 0: towards the viewer. Default: not moved.
 class PolygonOffsetChunk : public Chunk {
  public:
   PolygonOffsetChunk(float factor, float units) : factor_(factor), units_(units) {}

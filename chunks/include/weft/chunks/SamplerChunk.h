@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// How the texture on a unit is sampled, instead of as its own options say: materials that repeat an image
-/// and materials that clamp it then share one TextureChunk. Default: as the texture says.
+/// How the texture on a unit is sampled, instead of as its own options say: materials that repeat
+/// an image and materials that clamp it then share one TextureChunk. Default: as the texture says.
 ///
 /// TextureFilter::Mipmapped asks for a texture that was made with it.
 class SamplerChunk : public Chunk {

@@ -14,7 +14,8 @@ struct Sampling {
   TextureFilter filter = TextureFilter::Nearest;  ///< parameters must not be blended unasked
   TextureWrap wrap = TextureWrap::Clamp;          ///< the only one that every shape has
   std::optional<TextureWrap> wrapV{};             ///< along v, where that is another
-  std::optional<TextureFilter> magnification{};  ///< Nearest or Linear, where `filter` is for reduction alone
+  /// Nearest or Linear, where `filter` is for reduction alone
+  std::optional<TextureFilter> magnification{};
 
   bool operator==(const Sampling&) const = default;
 };

@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// The places in a State that a chunk can take, each one independent piece of GL state. A kind with several
-/// places (textures) starts at its enumerator.
+/// The places in a State that a chunk can take, each one independent piece of GL state. A kind with
+/// several places (textures) starts at its enumerator.
 enum Slot : unsigned {
   ProgramSlot,
   BlendSlot,
@@ -14,8 +14,9 @@ enum Slot : unsigned {
   PolygonOffsetSlot,
   TextureSlot,                     ///< + texture unit 0..31
   SamplerSlot = TextureSlot + 32,  ///< + texture unit 0..31
-  UniformSlot = SamplerSlot + 32,  ///< + uniform block binding 0..7; RenderAction keeps 0 for itself
-  StorageSlot = UniformSlot + 8,   ///< + storage block binding 0..7
+  /// + uniform block binding 0..7; RenderAction keeps 0 for itself
+  UniformSlot = SamplerSlot + 32,
+  StorageSlot = UniformSlot + 8,  ///< + storage block binding 0..7
   SlotCount = StorageSlot + 8,
 };
 

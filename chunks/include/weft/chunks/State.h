@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// The chunks to draw something with, by slot. Empty slots are at GL's defaults. A value: copies share the
-/// chunks.
+/// The chunks to draw something with, by slot. Empty slots are at GL's defaults. A value: copies
+/// share the chunks.
 class State {
  public:
   /// Puts a chunk of the slot's kind into it, or empties it with null.
@@ -20,8 +20,8 @@ class State {
   /// Another one after every set(), and the same for copies alone.
   std::uint64_t revision() const { return revision_; }
 
-  /// Changes GL from `previous`, which is active, to this. Visits only slots that one of them occupies and
-  /// does nothing where both hold the same chunk or equal ones.
+  /// Changes GL from `previous`, which is active, to this. Visits only slots that one of them
+  /// occupies and does nothing where both hold the same chunk or equal ones.
   void changeFrom(GLContext& context, const State& previous) const;
   /// From GL's defaults.
   void activate(GLContext& context) const { changeFrom(context, State()); }
@@ -32,7 +32,8 @@ class State {
   void changeSlot(GLContext& context, const State& previous, unsigned slot) const;
 
   std::array<std::shared_ptr<const Chunk>, SlotCount> chunks_;
-  std::array<std::uint64_t, (SlotCount + 63) / 64> occupied_{};  ///< bit slot % 64 of number slot / 64
+  /// bit slot % 64 of number slot / 64
+  std::array<std::uint64_t, (SlotCount + 63) / 64> occupied_{};
   std::uint64_t revision_ = 0;
 };
 

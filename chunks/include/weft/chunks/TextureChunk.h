@@ -16,15 +16,15 @@
 namespace weft {
 
 enum class TextureShape {
-  Flat,       ///< sampler2D
-  Array,      ///< sampler2DArray: one slice a layer
-  Rectangle,  ///< sampler2DRect: addressed in texels; GL gives it no repeat and no mipmaps
-  Volume,     ///< sampler3D: one slice a layer
-  Cube,       ///< samplerCube: six square layers, +X -X +Y -Y +Z -Z
+  TwoDimensional,    ///< sampler2D
+  Array,             ///< sampler2DArray: one slice a layer
+  Rectangle,         ///< sampler2DRect: addressed in texels; GL gives it no repeat and no mipmaps
+  ThreeDimensional,  ///< sampler3D: one slice a layer
+  Cube,              ///< samplerCube: six square layers, +X -X +Y -Y +Z -Z
 };
 
 struct TextureOptions {
-  TextureShape shape = TextureShape::Flat;
+  TextureShape shape = TextureShape::TwoDimensional;
   // As in Sampling; a SamplerChunk on the same unit overrules them.
   TextureFilter filter = TextureFilter::Nearest;
   TextureWrap wrap = TextureWrap::Clamp;
@@ -38,23 +38,24 @@ struct TextureOptions {
 /// Gives the texels of a texture that keeps none beside GL's: called once a context, on its thread.
 using TextureSource = std::function<Result<std::shared_ptr<const TextureImage>>()>;
 
-/// A texture on a unit, made from an image that it shares. Default: nothing bound, on any target of the unit.
+/// A texture on a unit, made from an image that it shares. Default: nothing bound, on any target of
+/// the unit.
 ///
-/// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the image's
-/// precision: 16F for half, 32F for float, 8 for bytes, 16 for words. sRGB has no format of 1 or 2 channels
-/// in GL, so grey becomes three equal channels. A TextureImage brings its own levels;
-/// TextureFilter::Mipmapped makes those of other images. An empty image or none unbinds what was there
-/// before.
+/// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the
+/// image's precision: 16F for half, 32F for float, 8 for bytes, 16 for words. sRGB has no format of
+/// 1 or 2 channels in GL, so grey becomes three equal channels. A TextureImage brings its own
+/// levels; TextureFilter::Mipmapped makes those of other images. An empty image or none unbinds
+/// what was there before.
 class TextureChunk : public Chunk {
  public:
-  /// Flat, Rectangle: an image of one layer.
+  /// TwoDimensional, Rectangle: an image of one layer.
   explicit TextureChunk(std::shared_ptr<const FloatImage> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const Image> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const WideImage> image, TextureOptions options = {});
   explicit TextureChunk(std::shared_ptr<const TextureImage> image, TextureOptions options = {});
 
-  /// What the source fails with is reported to the context, and the unit left empty. Two chunks are equal
-  /// where they have the same source.
+  /// What the source fails with is reported to the context, and the unit left empty. Two chunks are
+  /// equal where they have the same source.
   explicit TextureChunk(std::shared_ptr<const TextureSource> source, TextureOptions options = {});
 
   Slot kind() const override { return TextureSlot; }
@@ -62,7 +63,8 @@ class TextureChunk : public Chunk {
   void changeFrom(GLContext& context, const Chunk& old, unsigned slot) const override;
   void deactivate(GLContext& context, unsigned slot) const override;
 
-  /// Replaces the image; one of the same size and format refreshes the GL texture instead of remaking it.
+  /// Replaces the image; one of the same size and format refreshes the GL texture instead of
+  /// remaking it.
   void setImage(std::shared_ptr<const FloatImage> image);
   void setImage(std::shared_ptr<const Image> image);
 

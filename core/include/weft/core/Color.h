@@ -7,7 +7,8 @@
 
 namespace weft {
 
-/// How stored values relate to linear ones. Everything in memory is linear unless its name says "stored".
+/// How stored values relate to linear ones. Everything in memory is linear unless its name says
+/// "stored".
 enum class Encoding {
   Linear,
   Gamma22,  ///< stored = linear^(1/2.2): UBO2003, ATRIUM's JPEGs
@@ -25,8 +26,8 @@ float encode(Encoding encoding, float linear);
 glm::vec3 decode(Encoding encoding, glm::vec3 stored);
 glm::vec3 encode(Encoding encoding, glm::vec3 linear);
 
-/// Rec. 709 weights. Applied to encoded RGB it gives "stored luminance", which is not the encoding of linear
-/// luminance.
+/// Rec. 709 weights. Applied to encoded RGB it gives "stored luminance", which is not the encoding
+/// of linear luminance.
 constexpr glm::vec3 kLuminanceWeights{0.2126f, 0.7152f, 0.0722f};
 inline float luminance(glm::vec3 rgb) {
   return kLuminanceWeights.x * rgb.x + kLuminanceWeights.y * rgb.y + kLuminanceWeights.z * rgb.z;

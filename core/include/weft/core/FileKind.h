@@ -47,8 +47,8 @@ FileKind fileKind(const std::filesystem::path& file);
 /// With its article, for a message: "a PNG image"; empty for Unknown.
 std::string_view name(FileKind kind);
 
-/// For a reader that was given a file of another kind: "WHERE: this is a PNG image, not EXPECTED (which
-/// program takes PNG images, or what to do)". `expected` has its article: "an OpenEXR file".
+/// For a reader that was given a file of another kind: "WHERE: this is a PNG image, not EXPECTED
+/// (which program takes PNG images, or what to do)". `expected` has its article: "an OpenEXR file".
 tl::unexpected<Error> failOtherKind(FileKind actual, std::string_view expected, std::string where);
 
 }  // namespace weft

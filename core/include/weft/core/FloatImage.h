@@ -13,15 +13,15 @@ namespace weft {
 /// How many bits a value needs in a file or on the GPU. In memory a FloatImage always holds floats.
 enum class Precision { Half, Float };
 
-/// Rounds to the nearest half-precision value, to even at ties, as OpenEXR and GL do; too large becomes
-/// infinite.
+/// Rounds to the nearest half-precision value, to even at ties, as OpenEXR and GL do; too large
+/// becomes infinite.
 float roundToHalf(float value);
 
-/// A float image with named channels and layers, of any size: `values[layer][row][column][channel]`, row 0 at
-/// the top.
+/// A float image with named channels and layers, of any size:
+/// `values[layer][row][column][channel]`, row 0 at the top.
 ///
-/// The class that paper M 5.4 asks for: parameters, environments and rendered pictures. Not thread safe while
-/// written to.
+/// The class that [Meseth 2004] 5.4 asks for: parameters, environments and rendered pictures. Not
+/// thread safe while written to.
 class FloatImage {
  public:
   FloatImage() = default;

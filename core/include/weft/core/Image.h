@@ -6,8 +6,8 @@
 
 namespace weft {
 
-/// An 8-bit image as decoded from JPEG or PNG: `bytes[row][column][channel]`, row 0 at the top, values as
-/// stored (encoded).
+/// An 8-bit image as decoded from JPEG or PNG: `bytes[row][column][channel]`, row 0 at the top,
+/// values as stored (encoded).
 struct Image {
   int width = 0;
   int height = 0;

@@ -6,9 +6,11 @@ namespace weft {
 
 /// How far two images of the same size and channels are apart, over all channels and layers.
 struct ImageComparison {
-  float maximum = 0.0f;  ///< largest absolute difference; infinite where one is not finite and the other is
-  double mean = 0.0;     ///< mean absolute difference
-  double failingShare = 0.0;  ///< share of pixels in which some channel differs by more than the tolerance
+  /// largest absolute difference; infinite where one is not finite and the other is
+  float maximum = 0.0f;
+  double mean = 0.0;  ///< mean absolute difference
+  /// share of pixels in which some channel differs by more than the tolerance
+  double failingShare = 0.0;
 };
 
 /// Compares; images of different shape are infinitely far apart.

@@ -6,7 +6,8 @@
 
 namespace weft {
 
-/// An expected failure (input, I/O, shader, fit): what went wrong, where, and what the user can do about it.
+/// An expected failure (input, I/O, shader, fit): what went wrong, where, and what the user can do
+/// about it.
 struct Error {
   std::string what;   ///< one clause, no full stop: "the image is truncated"
   std::string where;  ///< a file, with an offset, line or entry where that is known; may be empty
@@ -16,7 +17,8 @@ struct Error {
   std::string message() const;
 };
 
-/// A value or an Error: the return type of everything that can fail for reasons outside the program.
+/// A value or an Error: the return type of everything that can fail for reasons outside the
+/// program.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
  public:
@@ -36,7 +38,8 @@ tl::unexpected<Error> failureOf(Result<T>&& result) {
 
 }  // namespace weft
 
-/// Declares `variable` with the value of a Result, or returns its failure from the enclosing function.
+/// Declares `variable` with the value of a Result, or returns its failure from the enclosing
+/// function.
 #define WEFT_TRY(variable, ...)                                           \
   auto WEFT_JOIN(weftResult, __LINE__) = (__VA_ARGS__);                   \
   if (!WEFT_JOIN(weftResult, __LINE__))                                   \

@@ -1,5 +1,5 @@
-// Logarithm and power of two for Highway's vectors of floats, with the means that share their code. Highway
-// includes such a file once for every instruction set, hence the guard that toggles.
+// Logarithm and power of two for Highway's vectors of floats, with the means that share their code.
+// Highway includes such a file once for every instruction set, hence the guard that toggles.
 #if defined(WEFT_CORE_SIMD_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef WEFT_CORE_SIMD_MATH_INL_H
 #undef WEFT_CORE_SIMD_MATH_INL_H
@@ -38,9 +38,9 @@ HWY_INLINE Vector log2(Vector x) {
   return hn::MulAdd(sum, t, hn::ConvertTo(Tag(), exponent));
 }
 
-// Degree 5 over -1/2..1/2, relative error 8e-8. Ends at 2^-40: smaller values, and products of them, would
-// become denormal numbers, which cost a hundred times as much as others and change nothing. Ends at 2^126,
-// too.
+// Degree 5 over -1/2..1/2, relative error 8e-8. Ends at 2^-40: smaller values, and products of
+// them, would become denormal numbers, which cost a hundred times as much as others and change
+// nothing. Ends at 2^126, too.
 HWY_INLINE Vector exp2(Vector x) {
   const hn::RebindToSigned<Tag> integers;
   x = hn::Min(hn::Max(x, constant(-40.0f)), constant(126.0f));

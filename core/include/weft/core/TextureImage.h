@@ -9,11 +9,11 @@
 
 namespace weft {
 
-/// Texels as a GPU takes them: halfs or floats, `[row][column][channel]` a layer, layers after one another,
-/// and so for each level. Row 0 is at the top.
+/// Texels as a GPU takes them: halfs or floats, `[row][column][channel]` a layer, layers after one
+/// another, and so for each level. Row 0 is at the top.
 ///
-/// Level i has sides halved i times, rounded down, at least 1, and as many layers. Not thread safe while
-/// written to, but different layers may be written at once.
+/// Level i has sides halved i times, rounded down, at least 1, and as many layers. Not thread safe
+/// while written to, but different layers may be written at once.
 class TextureImage {
  public:
   TextureImage() = default;
@@ -28,8 +28,9 @@ class TextureImage {
   Precision precision() const { return precision_; }
   bool empty() const { return levels_.empty(); }
 
-  /// Writes values into the texels of a layer from a place on, one channel after another, across the borders
-  /// of layers: where four channels are too few, the value belongs to the same place of the next layer.
+  /// Writes values into the texels of a layer from a place on, one channel after another, across
+  /// the borders of layers: where four channels are too few, the value belongs to the same place of
+  /// the next layer.
   void set(int x, int y, int layer, int channel, std::span<const float> values, int level = 0);
   float at(int x, int y, int layer, int channel, int level = 0) const;
   std::span<const std::byte> bytes(int level = 0) const { return levels_[static_cast<std::size_t>(level)]; }

@@ -15,13 +15,13 @@
 
 namespace weft {
 
-/// A whole baked BTF in a scratch file, half precision: 8-bit images need a scale that is known only when the
-/// last value is, and memory holds one view at a time. For one thread.
+/// A whole baked BTF in a scratch file, half precision: 8-bit images need a scale that is known
+/// only when the last value is, and memory holds one view at a time. For one thread.
 class BakedBtf {
  public:
-  /// Bakes every view. The scratch file (6 bytes a texel and pair) lies in `folder`, has no name, and
-  /// vanishes with the object or the program. Fails where the folder cannot be written to or the disk is
-  /// full.
+  /// Bakes every view. The scratch file (6 bytes a texel and pair) lies in `folder`, has no name,
+  /// and vanishes with the object or the program. Fails where the folder cannot be written to or
+  /// the disk is full.
   static Result<BakedBtf> bake(const BtfBaker& baker, const std::filesystem::path& folder,
                                const Progress& progress = {});
 
@@ -42,7 +42,8 @@ class BakedBtf {
   File scratch_;
   BakeOptions options_;
   std::array<std::uint64_t, 0x8000>
-      counts_{};                      ///< of each non-negative half, by its bits, which sort as it does
+      /// of each non-negative half, by its bits, which sort as it does
+      counts_{};
   std::vector<std::uint16_t> halfs_;  ///< one view
 };
 

@@ -8,14 +8,15 @@ namespace weft {
 
 /// A small surface that repeats in x and y, with its reflectance: what BtfBaker ray-traces.
 ///
-/// Sample (column, row) lies at x = (column + 1/2) spacing, y = -(row + 1/2) spacing: x to the right, y up,
-/// row 0 at the top, as in an image. z = 0 is the plane on which texels lie. Between samples the surface is
-/// made of flat facets.
+/// Sample (column, row) lies at x = (column + 1/2) spacing, y = -(row + 1/2) spacing: x to the
+/// right, y up, row 0 at the top, as in an image. z = 0 is the plane on which texels lie. Between
+/// samples the surface is made of flat facets.
 struct HeightField {
   struct Sample {
     float height = 0.0f;     ///< along z, in the unit of `spacing`
     glm::vec3 albedo{1.0f};  ///< linear RGB of the diffuse reflection
-    float specular = 0.0f;   ///< weight of the specular lobe; specular + albedo <= 1 in every channel
+    /// weight of the specular lobe; specular + albedo <= 1 in every channel
+    float specular = 0.0f;
   };
 
   HeightField(int columnCount, int rowCount, float sampleSpacing);

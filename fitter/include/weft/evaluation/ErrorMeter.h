@@ -22,7 +22,8 @@ struct SplitErrors {
 /// summarize() of one part: `summarize(texels, &SplitErrors::heldOut)`.
 FitErrors summarize(std::span<const SplitErrors> texels, TexelErrors SplitErrors::*part);
 
-/// Compares the parameters of texels with all their samples: what weft-fit and weft-eval report. Thread safe.
+/// Compares the parameters of texels with all their samples: what weft-fit and weft-eval report.
+/// Thread safe.
 class ErrorMeter {
  public:
   ErrorMeter(FieldFormula formula, FittedPairs pairs, const BtfDescription& measured);

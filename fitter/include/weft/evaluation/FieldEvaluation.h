@@ -31,18 +31,20 @@ struct FieldEvaluation {
   std::optional<FitErrors> heldOut;  ///< over the others, if there are any
   std::vector<SplitErrors> texels;   ///< row by row
   std::vector<PairPictures> pairs;   ///< a few, from the top to the lowest view
-  /// Said where the errors are not those that the fit reported, so that this is another measurement, or other
-  /// texels of it.
+  /// Said where the errors are not those that the fit reported, so that this is another
+  /// measurement, or other texels of it.
   std::optional<std::string> warning = {};
 };
 
-/// Compares a field with all pairs of a measurement, or of the part of it that `crop` names; its rows are
-/// read in blocks within `memory` bytes, texels are compared in parallel. Fails where they differ in size.
+/// Compares a field with all pairs of a measurement, or of the part of it that `crop` names; its
+/// rows are read in blocks within `memory` bytes, texels are compared in parallel. Fails where they
+/// differ in size.
 Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSource& source,
                                       const std::optional<Crop>& crop, std::size_t memory,
                                       const Progress& progress = {});
 
-/// One value a texel: eps of stored luminance (paper M eq. 2) over the pairs that were fitted.
+/// One value a texel: eps of stored luminance ([Meseth 2004] eq. 2) over the pairs that were
+/// fitted.
 FloatImage errorMap(const std::vector<SplitErrors>& texels, int width, int height);
 
 }  // namespace weft

@@ -27,8 +27,8 @@ struct PairValues {
   std::span<const glm::vec3> stored;
 };
 
-/// Errors of one texel over its pairs (paper M eq. 2 before the division). RGB errors are means over the
-/// three channels.
+/// Errors of one texel over its pairs ([Meseth 2004] eq. 2 before the division). RGB errors are
+/// means over the three channels.
 struct TexelErrors {
   std::array<std::array<ErrorSums, 2>, 2> sums{};  ///< [space][measure]
   float grazingAbsolute = 0.0f;                    ///< stored luminance, theta_v >= 60 degrees
@@ -40,13 +40,14 @@ struct TexelErrors {
   void add(const PairValues& data, const PairValues& model, bool isGrazing);
 };
 
-/// Average, extremes and 95th percentile over texels of eps (paper M eq. 2), and root mean square error over
-/// everything.
+/// Average, extremes and 95th percentile over texels of eps ([Meseth 2004] eq. 2), and root mean
+/// square error over everything.
 struct ErrorStatistics {
   double average = 0.0, minimum = 0.0, maximum = 0.0, percentile95 = 0.0;
   double rootMeanSquare = 0.0;
-  double psnr = 0.0;  ///< in dB; against a peak of 1 for stored and the data's largest value for linear;
-                      ///< infinite for no error
+  /// in dB; against a peak of 1 for stored and the data's largest value for linear; infinite for no
+  /// error
+  double psnr = 0.0;
 };
 
 /// The errors of a fit, on luminance and RGB, in stored and linear values.
@@ -64,8 +65,8 @@ struct FitErrors {
 /// Sums texels in their order, so that the result is the same for any number of threads.
 FitErrors summarize(std::span<const TexelErrors> texels);
 
-/// The fields `epsilon`, `rmse`, `psnr`, `psnr_peak`, `texels` of `weft-fit --json`, and the same again for
-/// held-out pairs as `held_out` (null without), as JSON text, without time, host or path.
+/// The fields `epsilon`, `rmse`, `psnr`, `psnr_peak`, `texels` of `weft-fit --json`, and the same
+/// again for held-out pairs as `held_out` (null without), as JSON text, without time, host or path.
 std::string toJson(const FitErrors& errors, const std::optional<FitErrors>& heldOut = {});
 
 /// The errors as a table of text, `title` in its corner; with a line end.

@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Which pairs of a measurement a field was fitted to. The others are held out, but for those whose light is
-/// on or below the horizon: whatever an image of them shows, the surface is not lit.
+/// Which pairs of a measurement a field was fitted to. The others are held out, but for those whose
+/// light is on or below the horizon: whatever an image of them shows, the surface is not lit.
 class FittedPairs {
  public:
   /// Those whose view and light are among the directions of `description`.

@@ -19,11 +19,12 @@ struct SampledRow {
   int y = 0;  ///< the row within the field
 };
 
-/// Neighbouring texels of one row, as fits and errors look at them. Their samples are decoded when they are
-/// asked for, once. For one thread.
+/// Neighbouring texels of one row, as fits and errors look at them. Their samples are decoded when
+/// they are asked for, once. For one thread.
 class TexelRun {
  public:
-  /// How many texels a run has, but for the last of a row: few, so that their samples stay in the cache.
+  /// How many texels a run has, but for the last of a row: few, so that their samples stay in the
+  /// cache.
   static constexpr int kTexels = 8;
   static int runsIn(int width) { return (width + kTexels - 1) / kTexels; }
 

@@ -7,7 +7,8 @@
 
 namespace weft {
 
-/// All pairs of one texel, `[view][light]`, n.l included, linear and as the measurement stores them.
+/// All pairs of one texel, `[view][light]`, n.l included, linear and as the measurement stores
+/// them.
 struct TexelSamples {
   std::vector<glm::vec3> linear;
   std::vector<glm::vec3> stored;

@@ -31,21 +31,25 @@ struct FitOptions {
   ModelDescription model;
   ModelRegistry models = ModelRegistry::builtin();     ///< among which the model is
   FitterRegistry fitters = FitterRegistry::builtin();  ///< and its fitter
-  Precision precision = Precision::Half;  ///< of the stored numbers; half changes eps by less than 0.0001
-  /// True: M's literal fit of data that contain n.l; else RF is multiplied by n.l when shading. Values in
-  /// FitSpace::Stored and of models that say so (containsCosine()) always contain it.
+  /// of the stored numbers; half changes eps by less than 0.0001
+  Precision precision = Precision::Half;
+  /// True: [Meseth 2004]'s literal fit of data that contain n.l; else RF is multiplied by n.l when
+  /// shading. Values in FitSpace::Stored and of models that say so (containsCosine()) always
+  /// contain it.
   bool cosineInModel = false;
   FitSpace space = FitSpace::Linear;
   std::optional<Crop> crop;  ///< texels to fit; all by default
   int holdOutLights = 0;     ///< about every Nth is not fitted but tested on (HoldOut.h); 0: none
   int holdOutViews = 0;
-  std::size_t memory = std::size_t{4}
-                       << 30;  ///< bytes for samples; two blocks of rows share it where one does not suffice
+  std::size_t memory =
+      std::size_t{4}  /// bytes for samples; two blocks of rows share it where one does not suffice
+      << 30;
   std::filesystem::path partsFolder;  ///< where finished rows are kept; empty: nowhere
-  /// Between saves of finished rows: what a stop may cost. 0: they are saved at once, and all are when
-  /// fitRows() returns.
+  /// Between saves of finished rows: what a stop may cost. 0: they are saved at once, and all are
+  /// when fitRows() returns.
   double secondsBetweenSaves = 0.0;
-  /// Hears of what goes wrong without ending the fit, as rows that cannot be saved; from any thread.
+  /// Hears of what goes wrong without ending the fit, as rows that cannot be saved; from any
+  /// thread.
   std::function<void(const std::string&)> warn;
 
   Result<void> validate() const;
@@ -60,44 +64,45 @@ struct FitResult {
   double secondsFitting = 0.0;
 };
 
-/// A fit of a whole measurement in steps, so that it can be stopped and shared. The result does not depend on
-/// threads, blocks, stops or shares.
+/// A fit of a whole measurement in steps, so that it can be stopped and shared. The result does not
+/// depend on threads, blocks, stops or shares.
 ///
 ///     WEFT_TRY(FieldFit fit, FieldFit::create(source, options));
-///     WEFT_TRY_VOID(fit.resume());                        // takes over rows in options.partsFolder
+///     WEFT_TRY_VOID(fit.resume());       // takes over rows in options.partsFolder
 ///     WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));    // or each process some
 ///     while (!fit.inLastPass()) {                         // of models with tables
-///       WEFT_TRY_VOID(fit.nextPass());                    // when all processes are done with the rows
+///       WEFT_TRY_VOID(fit.nextPass());   // when all processes are done with the rows
 ///       WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));
 ///     }
 ///     WEFT_TRY(FitResult result, fit.finish());
 class FieldFit {
  public:
-  /// Fails on options that do not suit the measurement, which must outlive the fit. With a parts folder,
-  /// looks at all that was measured once (BtfSource::checksum()), so that rows of something else are not
-  /// taken over.
+  /// Fails on options that do not suit the measurement, which must outlive the fit. With a parts
+  /// folder, looks at all that was measured once (BtfSource::checksum()), so that rows of something
+  /// else are not taken over.
   static Result<FieldFit> create(const BtfSource& source, const FitOptions& options);
   FieldFit(FieldFit&&) noexcept;
   ~FieldFit();
 
   int height() const;
-  /// Keeps other fits away from the parts folder while this one lives. Fails where one has it. Of several
-  /// processes that share the fit, one claims it.
+  /// Keeps other fits away from the parts folder while this one lives. Fails where one has it. Of
+  /// several processes that share the fit, one claims it.
   Result<void> claimParts();
   /// Takes over the finished rows in the parts folder. Fails on those of another fit.
   Result<void> resume();
-  /// Does the present pass for those of the rows that are not done: texels in parallel, while the next block
-  /// of rows is read and finished ones are written to the parts folder. Progress is that of all passes.
+  /// Does the present pass for those of the rows that are not done: texels in parallel, while the
+  /// next block of rows is read and finished ones are written to the parts folder. Progress is that
+  /// of all passes.
   Result<void> fitRows(int firstRow, int count, const Progress& progress);
   /// Whether the present pass fits texels; passes before it gather what these share (FieldFitter).
   bool inLastPass() const;
-  /// Goes on to the next pass; rows of other processes are taken over from the parts folder. Fails where one
-  /// is missing.
+  /// Goes on to the next pass; rows of other processes are taken over from the parts folder. Fails
+  /// where one is missing.
   Result<void> nextPass();
   /// The field, once every row is done in the last pass; once.
   Result<FitResult> finish();
-  /// Removes the finished rows, and the parts folder where nothing else is in it; for when the field has been
-  /// written.
+  /// Removes the finished rows, and the parts folder where nothing else is in it; for when the
+  /// field has been written.
   void removeParts() const;
 
  private:

@@ -11,23 +11,25 @@
 
 namespace weft {
 
-/// Fits a whole field in passes over its samples: first passes that gather what all texels share, then one
-/// that gives each texel its parameters. One class a model; TexelFitter is for models whose texels share
-/// nothing.
+/// Fits a whole field in passes over its samples: first passes that gather what all texels share,
+/// then one that gives each texel its parameters. One class a model; TexelFitter is for models
+/// whose texels share nothing.
 ///
-/// A pass sees the texels in runs, in any order and by several threads or processes. What it gathers is kept
-/// a row and handed over in the order of rows, so that a fit gives the same bytes however it is shared out.
+/// A pass sees the texels in runs, in any order and by several threads or processes. What it
+/// gathers is kept a row and handed over in the order of rows, so that a fit gives the same bytes
+/// however it is shared out.
 class FieldFitter {
  public:
   virtual ~FieldFitter() = default;
 
   /// How many passes gather. Texels are fitted in one more.
   virtual int gatheringPasses() const { return 0; }
-  /// Adds what a run of texels gives in a gathering pass to what its row gave before, which is empty at
-  /// first: sums, or samples of some texels. Runs of a row come in their order; rows in any, at once.
+  /// Adds what a run of texels gives in a gathering pass to what its row gave before, which is
+  /// empty at first: sums, or samples of some texels. Runs of a row come in their order; rows in
+  /// any, at once.
   virtual void gather(int pass, TexelRun& texels, std::vector<double>& ofRow) const;
-  /// Ends a gathering pass with what each row gave, in their order. What is made of it must depend on nothing
-  /// else: every process makes it for itself.
+  /// Ends a gathering pass with what each row gave, in their order. What is made of it must depend
+  /// on nothing else: every process makes it for itself.
   virtual Result<void> endPass(int pass, std::span<const std::vector<double>> ofRows);
   /// What all texels share, by name; complete after the last gathering pass.
   virtual FieldTables tables() const { return {}; }

@@ -8,8 +8,8 @@ namespace weft {
 
 class LinearLeastSquares;
 
-/// Fits models whose value is a sum of terms of the light, each times one number of the view's layer:
-/// weighted linear least squares, view by view.
+/// Fits models whose value is a sum of terms of the light, each times one number of the view's
+/// layer: weighted linear least squares, view by view.
 class LinearFitter : public TexelFitter {
  public:
   /// Fills in what each of the model's layer numbers is multiplied by for a light.

@@ -21,14 +21,16 @@ struct FitProblem {
   Encoding encoding = Encoding::Linear;  ///< of the stored samples
 };
 
-/// Fits the numbers of one texel to its samples: one class a model whose texels share nothing. Thread safe.
+/// Fits the numbers of one texel to its samples: one class a model whose texels share nothing.
+/// Thread safe.
 class TexelFitter {
  public:
   virtual ~TexelFitter() = default;
 
-  /// Fits one colour channel: minimises the sum of (weight (target - n.l RF))^2, without n.l where it is in
-  /// the model. `targets` and `weights` are `[view][light]`, finite, weights >= 0 (all may be 0). Fills the
-  /// model's shared numbers and `layers[layer][number]`; every number written is finite.
+  /// Fits one colour channel: minimises the sum of (weight (target - n.l RF))^2, without n.l where
+  /// it is in the model. `targets` and `weights` are `[view][light]`, finite, weights >= 0 (all may
+  /// be 0). Fills the model's shared numbers and `layers[layer][number]`; every number written is
+  /// finite.
   virtual void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,
                    std::span<float> layers) const = 0;
 };

@@ -8,8 +8,9 @@
 
 namespace weft {
 
-/// The colour of a share 0..1 in the map *viridis* (Smith and van der Walt 2015), stored sRGB 0..1: equal
-/// steps of a value look equally large, in print without colour, too. Clamped; NaN counts as 0.
+/// The colour of a share 0..1 in the map *viridis* (Smith and van der Walt 2015), stored sRGB 0..1:
+/// equal steps of a value look equally large, in print without colour, too. Clamped; NaN counts as
+/// 0.
 glm::vec3 viridis(float share);
 
 /// What the ends of the colour map mean.

@@ -12,7 +12,8 @@ namespace weft {
 /// "0.0123 min .. max" of every space and measure as rows of a table.
 ReportTable errorTable(const FitErrors& errors, std::string caption);
 
-/// The report of weft-fit and weft-eval: errors, where they are, and some pictures beside the measured ones.
+/// The report of weft-fit and weft-eval: errors, where they are, and some pictures beside the
+/// measured ones.
 Result<void> writeFieldReport(const ReflectanceField& field, const FieldEvaluation& evaluation,
                               const std::filesystem::path& path);
 

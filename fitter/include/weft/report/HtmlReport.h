@@ -43,8 +43,8 @@ struct ReportPlot {
   bool logarithmicX = false;  ///< for x > 0
 };
 
-/// A report on one HTML page that needs nothing beside it: pictures are PNG data URIs, plots inline SVG,
-/// without scripts. All texts are plain and are escaped.
+/// A report on one HTML page that needs nothing beside it: pictures are PNG data URIs, plots inline
+/// SVG, without scripts. All texts are plain and are escaped.
 class HtmlReport {
  public:
   explicit HtmlReport(std::string_view title);

@@ -18,7 +18,8 @@ namespace weft {
 namespace {
 
 constexpr std::size_t kFewestLights = 6;
-// Parabolic coordinates of normals stay within: 60 degrees from the pole. What is steeper is hardly seen.
+// Parabolic coordinates of normals stay within: 60 degrees from the pole. What is steeper is hardly
+// seen.
 constexpr float kSteepest = 0.577f;
 
 std::vector<std::size_t> aboveHorizon(const std::vector<glm::vec3>& lights) {
@@ -39,7 +40,8 @@ bool spanSpace(const std::vector<glm::vec3>& lights, const std::vector<std::size
   return svd.rank() == 3;
 }
 
-// Cauchy's: the squares of errors below `scale`; shadows and highlights, far above it, hardly count.
+// Cauchy's: the squares of errors below `scale`; shadows and highlights, far above it, hardly
+// count.
 float costOf(const Eigen::ArrayXf& errors, float scale) {
   return (errors / scale).square().log1p().sum();
 }
@@ -72,8 +74,8 @@ BumpFitter::BumpFitter(const FitProblem& problem)
   view_ = static_cast<std::size_t>(std::ranges::max_element(problem.views, {}, &glm::vec3::z) -
                                    problem.views.begin());
   viewDirection_ = problem.views[view_];
-  // Half vectors move by half the angle that lights move by, which makes the exponent about four times as
-  // large; GGX of this alpha is about as wide (Walter 2007).
+  // Half vectors move by half the angle that lights move by, which makes the exponent about four
+  // times as large; GGX of this alpha is about as wide (Walter 2007).
   smoothest_ = std::sqrt(std::sqrt(2.0f / (4.0f * sharpestExponent(lights_) + 2.0f)));
 }
 
@@ -113,8 +115,8 @@ BumpFitter::Surface BumpFitter::lambertian(const Eigen::ArrayXf& samples) const 
   return surface;
 }
 
-// Gauss-Newton steps with damping. The scale of Cauchy's errors shrinks from step to step, because a small
-// one has many local minima.
+// Gauss-Newton steps with damping. The scale of Cauchy's errors shrinks from step to step, because
+// a small one has many local minima.
 BumpFitter::Surface BumpFitter::improved(const Eigen::ArrayXf& samples, Surface surface, ScaleRange scales,
                                          int iterations) const {
   const float brightest = samples.maxCoeff();

@@ -8,12 +8,12 @@ namespace weft {
 
 /// Fits `bump` by photometric stereo: the measured view nearest to the pole under all its lights.
 ///
-/// Minimises absolute errors and starts from the lights of middling brightness, so that neither shadows nor
-/// highlights bend the normal.
+/// Minimises absolute errors and starts from the lights of middling brightness, so that neither
+/// shadows nor highlights bend the normal.
 class BumpFitter : public TexelFitter {
  public:
-  /// Fails where the lights do not determine a normal: fewer than six above the horizon, or all in one plane
-  /// with the texel.
+  /// Fails where the lights do not determine a normal: fewer than six above the horizon, or all in
+  /// one plane with the texel.
   static Result<std::unique_ptr<TexelFitter>> create(const FitProblem& problem);
 
   void fit(std::span<const float> targets, std::span<const float> weights, std::span<float> shared,

@@ -7,7 +7,8 @@ namespace weft {
 Result<std::unique_ptr<TexelFitter>> ExchangedFitter::create(const FitProblem& problem, Factory factory) {
   FitProblem exchanged = problem;
   std::swap(exchanged.lights, exchanged.views);
-  exchanged.cosineInModel = true;  // n.l is the same for a whole layer, so it is taken out beforehand
+  // n.l is the same for a whole layer, so it is taken out beforehand
+  exchanged.cosineInModel = true;
   std::vector<float> cosines(problem.lights.size(), 1.0f);
   if (!problem.cosineInModel)
     std::ranges::transform(problem.lights, cosines.begin(),

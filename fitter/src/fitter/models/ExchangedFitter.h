@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// Fits a light field with the fitter of the reflectance field of the same formula: light and view are
-/// exchanged.
+/// Fits a light field with the fitter of the reflectance field of the same formula: light and view
+/// are exchanged.
 class ExchangedFitter : public TexelFitter {
  public:
   using Factory = Result<std::unique_ptr<TexelFitter>> (*)(const FitProblem&);

@@ -12,8 +12,9 @@
 namespace weft {
 namespace {
 
-// What a view may show at most, for its brightest sample: well below the white pixel of M 5.3, 1.5 times that
-// sample. Views that are all but black beside others would otherwise hold the whole texel down.
+// What a view may show at most, for its brightest sample: well below the white pixel of [Meseth
+// 2004] 5.3, 1.5 times that sample. Views that are all but black beside others would otherwise hold
+// the whole texel down.
 std::vector<float> ceilingsFor(std::span<const float> targets, std::size_t views) {
   const std::size_t lights = targets.size() / views;
   const float brightest = std::max(std::ranges::max(targets), 0.0f);
@@ -35,7 +36,8 @@ class ViewFactors {
   const std::vector<float>& factors() const { return factors_; }
   LafJob job() const { return {job_.targets, scaled_}; }
 
-  // The best for values of the lobes, `[view][light]`, in closed form; 1 for a view that nothing is known of.
+  // The best for values of the lobes, `[view][light]`, in closed form; 1 for a view that nothing is
+  // known of.
   void solve(std::span<const float> values) {
     for (std::size_t v = 0; v < factors_.size(); ++v) {
       double product = 0.0;
@@ -109,8 +111,8 @@ void write(const LafFit& fit, std::span<float> shared) {
 
 Result<std::unique_ptr<TexelFitter>> LafFitter::create(const FitProblem& problem) {
   const std::size_t samples = problem.views.size() * problem.lights.size();
-  const std::size_t numbers =
-      problem.model->sharedNumbers().size() + problem.model->layerNumbers().size() * problem.views.size();
+  const std::size_t numbers = problem.model->sharedParameters().size() +
+                              problem.model->layerParameters().size() * problem.views.size();
   if (samples < numbers)
     return fail(fmt::format("{} samples a texel do not determine the {} numbers of {}", samples, numbers,
                             problem.model->description().name),

@@ -5,8 +5,8 @@
 
 namespace weft {
 
-/// Fits `laf`: one set of lobes to all views of a texel at once (LafSolver.h); and `slaf`: the same,
-/// alternating with view factors in closed form.
+/// Fits `laf`: one set of lobes to all views of a texel at once (LafSolver.h); and `slaf`: the
+/// same, alternating with view factors in closed form.
 class LafFitter : public TexelFitter {
  public:
   /// Fails where there are fewer samples than numbers.

@@ -35,7 +35,8 @@ struct Lobe {
   glm::vec2 p{0.0f};
   float exponent = 1.0f;
 
-  // A lobe that points away from all light is lost to the solver, which may have let it run off to infinity.
+  // A lobe that points away from all light is lost to the solver, which may have let it run off to
+  // infinity.
   static Lobe from(std::span<const float> parameters, float largestExponent) {
     const glm::vec2 p(parameters[1], parameters[2]);
     const float amplitude = parameters[0] * parameters[0];
@@ -66,8 +67,8 @@ Value valueOf(std::span<const Lobe> lobes, float diffuse, glm::vec3 light, bool 
   return {sum.value * light.z, sum.gradient * light.z + glm::vec3(0.0f, 0.0f, sum.value)};
 }
 
-// Where one lobe is brightest: n.l lifts that above the lobe's own direction, to where cot(e) = n tan(e - d)
-// with the elevations e of the light and d of the lobe; solved for small angles.
+// Where one lobe is brightest: n.l lifts that above the lobe's own direction, to where cot(e) = n
+// tan(e - d) with the elevations e of the light and d of the lobe; solved for small angles.
 glm::vec3 brightestLight(const Lobe& lobe, bool modelHasCosine) {
   const glm::vec3 direction = lobe.direction();
   const float elevation = std::asin(std::clamp(direction.z, -1.0f, 1.0f));
@@ -80,8 +81,9 @@ glm::vec3 brightestLight(const Lobe& lobe, bool modelHasCosine) {
   return {azimuth * std::cos(e), std::sin(e)};
 }
 
-// The light near a start that all lobes together reflect most. Where the gradient of the value is parallel to
-// the light, the value is stationary; half a step to the gradient's direction, again and again, climbs there.
+// The light near a start that all lobes together reflect most. Where the gradient of the value is
+// parallel to the light, the value is stationary; half a step to the gradient's direction, again
+// and again, climbs there.
 glm::vec3 brightestLight(std::span<const Lobe> lobes, float diffuse, glm::vec3 start, bool modelHasCosine) {
   constexpr int steps = 8;
   glm::vec3 light = start;
@@ -95,8 +97,9 @@ glm::vec3 brightestLight(std::span<const Lobe> lobes, float diffuse, glm::vec3 s
   return light;
 }
 
-// Between and below the measured lights nothing holds a lobe, and one that is seen only from its foot may
-// tower there: the white pixels of M 5.3. Weakens lobes that exceed a limit anywhere.
+// Between and below the measured lights nothing holds a lobe, and one that is seen only from its
+// foot may tower there: the white pixels of [Meseth 2004] 5.3. Weakens lobes that exceed a limit
+// anywhere.
 void limitBrightness(std::span<Lobe> lobes, float diffuse, float limit, bool modelHasCosine) {
   float bound = diffuse;
   for (const Lobe& lobe : lobes) bound += lobe.amplitude;
@@ -130,8 +133,8 @@ std::vector<std::vector<int>> closeLights(const std::vector<glm::vec3>& lights) 
   return close;
 }
 
-// Where a view's reflectance stands out from that of the neighbouring lights: the principal directions of
-// M 4.1.
+// Where a view's reflectance stands out from that of the neighbouring lights: the principal
+// directions of [Meseth 2004] 4.1.
 void findPeaks(const std::vector<float>& reflectance, const LightNeighbors& neighbors,
                std::vector<float>& highPass, std::span<std::size_t> peaks) {
   for (std::size_t i = 0; i < reflectance.size(); ++i) {
@@ -164,8 +167,8 @@ class TexelFit {
         diffuseSlopes_(views_),
         reflectance_(lights_) {}
 
-  // Every view alone, from a broad lobe and peaks, from peaks alone, and from what became of the view before
-  // it, since neighbouring views look alike; the best goes on.
+  // Every view alone, from a broad lobe and peaks, from peaks alone, and from what became of the
+  // view before it, since neighbouring views look alike; the best goes on.
   void fitViews() {
     std::vector<float> broadAndPeaks;
     std::vector<float> peaksAlone;
@@ -184,8 +187,8 @@ class TexelFit {
   // Lets every view keep a diffuse albedo of its own.
   void polish() { improve(DiffuseSolve::Solve, 10); }
 
-  // Lets all views have one diffuse albedo up to a largest one: the best for the lobes, then the best lobes
-  // for it, in turn.
+  // Lets all views have one diffuse albedo up to a largest one: the best for the lobes, then the
+  // best lobes for it, in turn.
   void shareDiffuse(float largest) {
     constexpr int rounds = 3;  // a fourth changes the error by less than 1 %
     for (int round = 0; round < rounds; ++round) {
@@ -288,8 +291,8 @@ class TexelFit {
     for (std::size_t v = 0; v < views_; ++v) diffuseSlopes_[v] = jobs[v].diffuseSlope;
   }
 
-  // Where the slopes of all views' costs would cancel: the costs are parabolas of the albedo as long as the
-  // lobes stay.
+  // Where the slopes of all views' costs would cancel: the costs are parabolas of the albedo as
+  // long as the lobes stay.
   float bestSharedDiffuse() const {
     double numerator = 0.0;
     double denominator = 1e-12;
@@ -320,8 +323,8 @@ class TexelFit {
   std::vector<float> scratch_;
 };
 
-// A white pixel of M 5.3 exceeds its view's brightest sample 1.5 times; less than that, with room for
-// rounding. What a light field shows between the measured views has no such bound.
+// A white pixel of [Meseth 2004] 5.3 exceeds its view's brightest sample 1.5 times; less than that,
+// with room for rounding. What a light field shows between the measured views has no such bound.
 float brightestShareOf(const FitProblem& problem) {
   if (problem.model->layerDirections() == LayerDirections::Lights) return 2.0f;
   return problem.weighted ? 1.35f : std::pow(1.35f, 1.0f / 2.2f);

@@ -11,8 +11,8 @@ struct LightNeighbors {
   std::vector<std::vector<int>> close;    ///< all within 30 degrees
 };
 
-/// Fits `rfnl` and `lfnl`: the lobes of each view from several starts (LobeSolver.h), alternating with a
-/// closed-form diffuse albedo where the views share one.
+/// Fits `rfnl` and `lfnl`: the lobes of each view from several starts (LobeSolver.h), alternating
+/// with a closed-form diffuse albedo where the views share one.
 class RfnlFitter : public TexelFitter {
  public:
   /// Fails where there are fewer lights than parameters of a view.

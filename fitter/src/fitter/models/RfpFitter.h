@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// Makes the fitter of `rfp`. Fails where the lights do not determine the six coefficients: fewer than six,
-/// or on one conic.
+/// Makes the fitter of `rfp`. Fails where the lights do not determine the six coefficients: fewer
+/// than six, or on one conic.
 Result<std::unique_ptr<TexelFitter>> makeRfpFitter(const FitProblem& problem);
 /// The same for `lfp`, of which light and view are exchanged.
 Result<std::unique_ptr<TexelFitter>> makeLfpFitter(const FitProblem& problem);

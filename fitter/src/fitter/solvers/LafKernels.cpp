@@ -1,4 +1,5 @@
-// Highway compiles this file once for every instruction set: AVX-512, AVX2 and what every processor has.
+// Highway compiles this file once for every instruction set: AVX-512, AVX2 and what every processor
+// has.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solvers/LafKernels.cpp"
@@ -29,8 +30,8 @@ struct Point {
   }
 };
 
-// The power less one gives both the value and its derivative without a division; 0 for a base that is not
-// positive.
+// The power less one gives both the value and its derivative without a division; 0 for a base that
+// is not positive.
 struct Power {
   Vector base, logarithm, lower;
 
@@ -47,8 +48,8 @@ HWY_INLINE float sumOf(Vector vector) {
   return hn::GetLane(hn::SumOfLanes(Tag(), vector));
 }
 
-// Adds the products of some rows with some others, summed over points in registers, to a Gram matrix of
-// vectors.
+// Adds the products of some rows with some others, summed over points in registers, to a Gram
+// matrix of vectors.
 template <std::size_t kRows, std::size_t kColumns>
 void addProducts(const float* rows, std::size_t rowCount, std::size_t vectors, std::size_t row,
                  std::size_t column, float* gram) {

@@ -49,10 +49,11 @@ struct LafSamples {
   const AlignedFloats& targets;
 };
 
-/// Adds to `gram`, of lafGramSize(lobes) floats, the Gram matrix of the rows that least squares needs, lower
-/// triangle row by row. The rows are, a number a point: for every lobe the derivatives of the scaled model by
-/// amplitude, the two turns and the logarithm of the exponent; that by the diffuse albedo; the residuals
-/// (scaled model less target). So the last row holds gradient and cost.
+/// Adds to `gram`, of lafGramSize(lobes) floats, the Gram matrix of the rows that least squares
+/// needs, lower triangle row by row. The rows are, a number a point: for every lobe the derivatives
+/// of the scaled model by amplitude, the two turns and the logarithm of the exponent; that by the
+/// diffuse albedo; the residuals (scaled model less target). So the last row holds gradient and
+/// cost.
 void addLafGram(const LafSamples& samples, std::span<const LafTerms> lobes, float diffuse,
                 std::span<float> gram);
 constexpr std::size_t lafGramSize(std::size_t lobes) {

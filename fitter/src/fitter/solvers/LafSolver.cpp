@@ -71,7 +71,8 @@ AlignedFloats valuesAt(const LafPoints& points, const LafFit& fit) {
 void normalizeAxes(LafLobe& lobe) {
   const float largest = std::max({std::abs(lobe.axes.x), std::abs(lobe.axes.y), lobe.axes.z, 1e-3f});
   lobe.axes /= largest;
-  lobe.axes.z = std::max(lobe.axes.z, -8.0f);  // nothing is left to see of such a lobe but at the horizon
+  // nothing is left to see of such a lobe but at the horizon
+  lobe.axes.z = std::max(lobe.axes.z, -8.0f);
   lobe.amplitude *= std::pow(largest, lobe.exponent);
 }
 
@@ -211,8 +212,8 @@ class TexelSolver {
   double costOfMerging_ = 0.0;  // what even a model that is free for every product leaves
 };
 
-// The one that, with the diffuse albedo adapted, explains most of the residuals; false if none explains
-// anything.
+// The one that, with the diffuse albedo adapted, explains most of the residuals; false if none
+// explains anything.
 bool TexelSolver::addLobe(LafFit& fit) const {
   AlignedFloats residuals = valuesAt(tables_.samplePoints, fit);
   for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] = scales_[i] * residuals[i] - targets_[i];
@@ -238,7 +239,8 @@ bool TexelSolver::addLobe(LafFit& fit) const {
   return true;
 }
 
-// Solves the damped normal equations; unknowns at a bound which they would cross stay where they are.
+// Solves the damped normal equations; unknowns at a bound which they would cross stay where they
+// are.
 std::vector<double> TexelSolver::stepOf(const LafFit& fit, std::span<const float> gram, double damping,
                                         float largestExponent) {
   const std::size_t unknowns = 4 * fit.lobes.size() + 1;
@@ -367,7 +369,8 @@ void TexelSolver::limit(std::span<const float> ceilings, LafFit& fit) const {
     improve(fit, 30, 1e-4, &active);
     const Excess excess = excessOf(fit, highest);
     if (excess.factor < 1.2f || !excess.brightest) break;
-    // A spike that does not find its way out: without it the others do, and it grows again if it is needed.
+    // A spike that does not find its way out: without it the others do, and it grows again if it is
+    // needed.
     excess.brightest->amplitude = 0.0f;
   }
   const float scale = std::min(kTolerated / excessOf(fit, highest).factor, 1.0f);

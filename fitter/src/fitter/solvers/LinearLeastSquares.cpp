@@ -61,7 +61,8 @@ void LinearLeastSquares::solve(std::span<const float> targets, std::span<const f
   const Eigen::MatrixXf normals = products_ * squares;
   const Eigen::MatrixXf rights = terms_ * squares.cwiseProduct(samples);
   const auto results = columnsFor(solutions, terms_.rows(), samples.cols());
-  if (terms_.rows() == 6)  // of biquadratic polynomials: Eigen is much faster with a size that it knows
+  // of biquadratic polynomials: Eigen is much faster with a size that it knows
+  if (terms_.rows() == 6)
     solveNormals<6>(normals, rights, results);
   else
     solveNormals<Eigen::Dynamic>(normals, rights, results);

@@ -1,4 +1,5 @@
-// Highway compiles this file once for every instruction set: AVX-512, AVX2 and what every processor has.
+// Highway compiles this file once for every instruction set: AVX-512, AVX2 and what every processor
+// has.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solvers/LobeSolver.cpp"
@@ -21,8 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace weft {
 namespace HWY_NAMESPACE {
 
-// The normal equations of N unknowns: the lower triangle of J^T J, row by row, J^T r and r^T r; and the
-// residuals' product with what the diffuse albedo is multiplied by.
+// The normal equations of N unknowns: the lower triangle of J^T J, row by row, J^T r and r^T r; and
+// the residuals' product with what the diffuse albedo is multiplied by.
 template <int N>
 struct NormalEquations {
   static constexpr int kTriangle = N * (N + 1) / 2;
@@ -99,8 +100,8 @@ HWY_INLINE Vector lobeAt(const LobeTerms& terms, const glm::vec3& l, Vector scal
   return value;
 }
 
-// Rows and columns [row0, row1) x [column0, column1) of the lower triangle, summed over all lights in
-// registers.
+// Rows and columns [row0, row1) x [column0, column1) of the lower triangle, summed over all lights
+// in registers.
 template <int N, int kRow0, int kRow1, int kColumn0, int kColumn1>
 void addBlock(const float* derivatives, std::size_t lights, std::array<Vector, N*(N + 1) / 2>& matrix) {
   const Tag d;
@@ -221,7 +222,8 @@ class Batch {
   }
 
  private:
-  static constexpr std::size_t kLightsAtOnce = 16;  // their derivatives stay in the first-level cache
+  // their derivatives stay in the first-level cache
+  static constexpr std::size_t kLightsAtOnce = 16;
   static constexpr int kParameters = 4 * K + 1;
   static constexpr int N = 4 * K + (kSolveDiffuse ? 1 : 0);
 
@@ -255,7 +257,8 @@ class Batch {
     std::array<Vector, N> step;
     solveStep<N>(current, next, step);
     for (std::size_t k = 0; k < N; ++k) {
-      // A step of half the parabolic plane, or of half the range of exponents, is no step but a leap.
+      // A step of half the parabolic plane, or of half the range of exponents, is no step but a
+      // leap.
       const Vector limit = constant(k % 4 == 3 ? 2.0f : 0.5f);
       const Vector bounded = hn::Min(hn::Max(step[k], hn::Neg(limit)), limit);
       hn::Store(hn::Add(hn::Load(d, parameters_ + k * lanes_), bounded), d, trial_ + k * lanes_);
@@ -331,11 +334,12 @@ class Batch {
   int maximumIterations_;
   std::size_t lights_;
   std::size_t lanes_;
-  hwy::AlignedFreeUniquePtr<float[]> floats_;  // all arrays below: a vector for each light or parameter
-  float* targets_ = nullptr;                   // weighted samples
-  float* scales_ = nullptr;                    // what the model is multiplied by: weight and cosine
-  float* derivatives_ = nullptr;               // [light of kLightsAtOnce][unknown]
-  float* parameters_ = nullptr;                // the best so far
+  // all arrays below: a vector for each light or parameter
+  hwy::AlignedFreeUniquePtr<float[]> floats_;
+  float* targets_ = nullptr;      // weighted samples
+  float* scales_ = nullptr;       // what the model is multiplied by: weight and cosine
+  float* derivatives_ = nullptr;  // [light of kLightsAtOnce][unknown]
+  float* parameters_ = nullptr;   // the best so far
   float* trial_ = nullptr;
   float* damping_ = nullptr;
   float* cost_ = nullptr;

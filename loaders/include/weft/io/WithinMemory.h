@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// What `read` returns, a Result; a failure that says so where memory runs out in it. `where` names the
-/// source.
+/// What `read` returns, a Result; a failure that says so where memory runs out in it. `where` names
+/// the source.
 template <class Read>
 auto withinMemory(const std::string& where, const Read& read) -> decltype(read()) {
   try {

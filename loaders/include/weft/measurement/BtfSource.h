@@ -18,13 +18,16 @@ namespace weft {
 struct BtfDescription {
   int width = 0;
   int height = 0;
-  std::vector<glm::vec3> views;   ///< unit, tangent frame (Direction.h), sorted by polar angle, then azimuth
-  std::vector<glm::vec3> lights;  ///< likewise; fits leave out those on or below the horizon
+  /// unit, tangent frame (Direction.h), sorted by polar angle, then azimuth
+  std::vector<glm::vec3> views;
+  std::vector<glm::vec3> lights;         ///< likewise; fits leave out those on or below the horizon
   Encoding encoding = Encoding::Linear;  ///< of the stored values
   bool storedAsBytes = false;            ///< 8 bits a channel; else linear floats
-  bool cosineInData = true;              ///< values contain the foreshortening n.l, as photographs do
-  std::string name;                      ///< for people: the file's or folder's name
-  std::vector<std::string> warnings{};   ///< what is left out, or not as the source says, a sentence each
+  /// values contain the foreshortening n.l, as photographs do
+  bool cosineInData = true;
+  std::string name;  ///< for people: the file's or folder's name
+  /// what is left out, or not as the source says, a sentence each
+  std::vector<std::string> warnings{};
 
   std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   /// Of the samples of one row, all its pairs, in SampleRows.
@@ -42,13 +45,14 @@ class BtfSource {
 
   virtual const BtfDescription& description() const = 0;
 
-  /// All pairs of some rows, row 0 at the top. Costs a pass over the whole measurement, so ask for as many
-  /// rows as memory allows (rowsWithin()); decoded images take 128 MiB besides. Rows that are read one after
-  /// another into the same `out` share its memory.
+  /// All pairs of some rows, row 0 at the top. Costs a pass over the whole measurement, so ask for
+  /// as many rows as memory allows (rowsWithin()); decoded images take 128 MiB besides. Rows that
+  /// are read one after another into the same `out` share its memory.
   virtual Result<void> readRows(int firstRow, int rowCount, SampleRows& out) const = 0;
 
-  /// Tells measurements apart by what was measured, directions and values, and not by what they are called.
-  /// Costs a pass over the measurement where a source knows nothing quicker. Fails where it cannot be read.
+  /// Tells measurements apart by what was measured, directions and values, and not by what they are
+  /// called. Costs a pass over the measurement where a source knows nothing quicker. Fails where it
+  /// cannot be read.
   virtual Result<std::uint64_t> checksum() const;
 
   /// How many rows fit into `bytes` when read by readRows(); at least 1.
@@ -57,14 +61,15 @@ class BtfSource {
 
 /// How a measurement is opened.
 struct BtfOptions {
-  /// Of a light list: the n-th image, in the order of their names, is that of the n-th light, whatever the
-  /// list calls it.
+  /// Of a light list: the n-th image, in the order of their names, is that of the n-th light,
+  /// whatever the list calls it.
   bool imagesInOrder = false;
 };
 
-/// Opens a folder or a zip of angle-named images (UBO2003's names), or a `.lp` (docs/conventions.md) with its
-/// images, also as the folder or zip that holds it. Reads names and the first image. Fails, naming file and
-/// reason, on missing or duplicate directions, an empty folder, a broken zip or a file of another kind.
+/// Opens a folder or a zip of angle-named images (UBO2003's names), or a `.lp`
+/// (docs/conventions.md) with its images, also as the folder or zip that holds it. Reads names and
+/// the first image. Fails, naming file and reason, on missing or duplicate directions, an empty
+/// folder, a broken zip or a file of another kind.
 Result<std::unique_ptr<BtfSource>> openBtf(const std::filesystem::path& path, const BtfOptions& options = {});
 
 }  // namespace weft

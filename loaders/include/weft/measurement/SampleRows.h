@@ -15,9 +15,9 @@ namespace weft {
 
 struct BtfDescription;
 
-/// All pairs of some rows of a measurement, in memory as it stores them: bytes where its images have 8 bits a
-/// channel, else linear floats; a quarter of the memory for most. Filled by BtfSource::readRows(); reading is
-/// for any number of threads.
+/// All pairs of some rows of a measurement, in memory as it stores them: bytes where its images
+/// have 8 bits a channel, else linear floats; a quarter of the memory for most. Filled by
+/// BtfSource::readRows(); reading is for any number of threads.
 ///
 /// Pairs are counted `view * lights + light`, rows from the first one that was read.
 class SampleRows {
@@ -31,11 +31,11 @@ class SampleRows {
   /// The same, encoded as the measurement stores it.
   void stored(int row, int column, std::span<glm::vec3> out, std::size_t firstPair = 0) const;
 
-  /// For sources: makes room for rows of a measurement, in the memory it has where that suffices. What they
-  /// hold is left undefined. Fails where there is no memory.
+  /// For sources: makes room for rows of a measurement, in the memory it has where that suffices.
+  /// What they hold is left undefined. Fails where there is no memory.
   Result<void> allocate(const BtfDescription& description, int rows);
-  /// For sources: all samples, `[row][column][view][light][rgb]`; bytes() as stored, floats() linear. Only
-  /// the one that BtfDescription::storedAsBytes says may be asked for.
+  /// For sources: all samples, `[row][column][view][light][rgb]`; bytes() as stored, floats()
+  /// linear. Only the one that BtfDescription::storedAsBytes says may be asked for.
   std::span<std::uint8_t> bytes();
   std::span<const std::uint8_t> bytes() const;
   std::span<float> floats();

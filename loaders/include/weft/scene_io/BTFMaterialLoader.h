@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// A `.rf.exr` as a material, with the textures that others of the cache have; fails as FieldCache::load()
-/// and BTFMaterial::create() do.
+/// A `.rf.exr` as a material, with the textures that others of the cache have; fails as
+/// FieldCache::load() and BTFMaterial::create() do.
 Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,
                                                      const BTFMaterialOptions& options, FieldCache& fields);
 

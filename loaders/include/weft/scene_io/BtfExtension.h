@@ -16,12 +16,13 @@ struct BtfExtension {
   int texCoord = 0;             ///< the set of texture coordinates
 };
 
-/// Copies a glTF file, .gltf or .glb, and gives materials, by name, a reflectance field. Everything else
-/// stays: the fallback of other viewers, extensions that Weft does not know, extras, the binary chunk.
+/// Copies a glTF file, .gltf or .glb, and gives materials, by name, a reflectance field. Everything
+/// else stays: the fallback of other viewers, extensions that Weft does not know, extras, the
+/// binary chunk.
 ///
-/// `target` may be `source`; in another folder only where the file refers to no others. The reflectance
-/// fields need not exist yet. Fails, with file and reason, on what is not glTF, and on a name that no
-/// material has.
+/// `target` may be `source`; in another folder only where the file refers to no others. The
+/// reflectance fields need not exist yet. Fails, with file and reason, on what is not glTF, and on
+/// a name that no material has.
 Result<void> writeBtfExtension(const std::filesystem::path& source, const std::filesystem::path& target,
                                const std::map<std::string, BtfExtension>& materials);
 

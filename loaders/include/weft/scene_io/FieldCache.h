@@ -12,17 +12,19 @@
 
 namespace weft {
 
-/// Reflectance field files as textures, each read and uploaded once however many materials and scenes name
-/// it. The caller owns it, and may keep it over many scenes: it does not keep textures that nothing else has.
+/// Reflectance field files as textures, each read and uploaded once however many materials and
+/// scenes name it. The caller owns it, and may keep it over many scenes: it does not keep textures
+/// that nothing else has.
 ///
-/// A file is told by its place, size and time of change, so that one that is written anew is read anew. Used
-/// by one thread at a time.
+/// A file is told by its place, size and time of change, so that one that is written anew is read
+/// anew. Used by one thread at a time.
 class FieldCache {
  public:
   explicit FieldCache(ModelRegistry models = ModelRegistry::builtin()) : models_(std::move(models)) {}
 
-  /// Fails, with file and reason, as readReflectanceField() and BTFTextures::create() do. Nothing but GL's
-  /// copy is kept: a second context reads the file again, and reports it where the file is another by then.
+  /// Fails, with file and reason, as readReflectanceField() and BTFTextures::create() do. Nothing
+  /// but GL's copy is kept: a second context reads the file again, and reports it where the file is
+  /// another by then.
   ///
   /// `preparedForEnvironments`: at least; textures that are there and prepared serve both.
   Result<std::shared_ptr<const BTFTextures>> load(const std::filesystem::path& path,

@@ -21,9 +21,10 @@ namespace weft {
 
 /// An extension that Weft does not know, or an application's extras, kept as data.
 struct GltfData {
-  std::string place;  ///< JSON pointer to the object that has it: "/nodes/3"; "" for the file itself
-  std::string name;   ///< of the extension, or "extras"
-  std::string json;   ///< its value, as JSON text
+  /// JSON pointer to the object that has it: "/nodes/3"; "" for the file itself
+  std::string place;
+  std::string name;  ///< of the extension, or "extras"
+  std::string json;  ///< its value, as JSON text
 };
 
 /// A material as a file describes it, for a program that makes materials of its own.
@@ -34,8 +35,8 @@ struct GltfMaterial {
 };
 
 struct GltfOptions {
-  /// Materials to use instead of the file's, by its names for them; "*" for all that are not named. What they
-  /// replace is not read.
+  /// Materials to use instead of the file's, by its names for them; "*" for all that are not named.
+  /// What they replace is not read.
   std::map<std::string, std::shared_ptr<const Material>> replacements{};
   bool lights = true;  ///< false leaves the file's lights out, for a program that brings its own
   /// For materials with WEFT_materials_btf; textureScale is multiplied by the extension's `scale`.
@@ -44,15 +45,15 @@ struct GltfOptions {
   ModelRegistry models = ModelRegistry::builtin();
   /// Where the fields of those come from, instead of models; null: each is read once for this file.
   std::shared_ptr<FieldCache> fields{};
-  /// Poses the scene as one of its animations has it so many seconds after its start; none: as it was
-  /// modelled. Before the first and after the last key a value stays as it is there.
+  /// Poses the scene as one of its animations has it so many seconds after its start; none: as it
+  /// was modelled. Before the first and after the last key a value stays as it is there.
   std::optional<double> time{};
   std::string animation{};  ///< the name of that animation; empty: the first
   /// Makes the materials that are not replaced; null leaves one to Weft.
   std::function<Result<std::shared_ptr<const Material>>(const GltfMaterial&)> makeMaterial{};
-  /// The program's own extensions, by name, which files may then require. Each is called wherever the file
-  /// has it, once the scene is complete; `node` is the one that came out of a glTF node of the scene,
-  /// otherwise null.
+  /// The program's own extensions, by name, which files may then require. Each is called wherever
+  /// the file has it, once the scene is complete; `node` is the one that came out of a glTF node of
+  /// the scene, otherwise null.
   std::map<std::string, std::function<Result<void>(const GltfData&, Node* node)>> extensions{};
 };
 
@@ -68,28 +69,34 @@ struct GltfScene {
   };
 
   std::shared_ptr<Node> root;
-  std::vector<NamedCamera> cameras;    ///< in the order of their nodes
-  std::vector<std::string> materials;  ///< names of all materials that something is drawn with; "" has none
-  std::vector<Animation> animations;   ///< all that the file has
-  std::vector<GltfData> data;          ///< unknown extensions and extras, in the order of the file
+  std::vector<NamedCamera> cameras;  ///< in the order of their nodes
+  /// names of all materials that something is drawn with; "" has none
+  std::vector<std::string> materials;
+  std::vector<Animation> animations;  ///< all that the file has
+  std::vector<GltfData> data;         ///< unknown extensions and extras, in the order of the file
   int lights = 0;
   Bounds bounds;
-  std::vector<std::filesystem::path> files;  ///< that its uris name: buffers, images, fields, there or not
-  std::vector<std::string> warnings;  ///< what of the file is not shown, or not as it says, a sentence each
+  /// that its uris name: buffers, images, fields, there or not
+  std::vector<std::filesystem::path> files;
+  /// what of the file is not shown, or not as it says, a sentence each
+  std::vector<std::string> warnings;
 };
 
-/// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, meshes of every kind of primitive
-/// (morphed and skinned as they stand at the time that the options name; instanced; packed with
-/// meshoptimizer, where this build has it), lights (KHR_lights_punctual), cameras, materials.
+/// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, meshes of every kind of
+/// primitive (morphed and skinned as they stand at the time that the options name; instanced;
+/// packed with meshoptimizer, where this build has it), lights (KHR_lights_punctual), cameras,
+/// materials.
 ///
-/// A material with `WEFT_materials_btf` (`uri` of a .rf.exr beside the file, `scale`) becomes a BTFMaterial,
-/// any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular, _pbrSpecularGlossiness, _unlit,
-/// KHR_texture_transform; two of a primitive's sets of texture coordinates). Normals and tangents that a file
-/// leaves out are generated. An image or a .rf.exr that is missing or broken is left out with a warning.
+/// A material with `WEFT_materials_btf` (`uri` of a .rf.exr beside the file, `scale`) becomes a
+/// BTFMaterial, any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular,
+/// _pbrSpecularGlossiness, _unlit, KHR_texture_transform; two of a primitive's sets of texture
+/// coordinates). Normals and tangents that a file leaves out are generated. An image or a .rf.exr
+/// that is missing or broken is left out with a warning.
 ///
-/// Files are not trusted: everything is checked against its type and bounds, and memory is taken for no more
-/// than a file of its size needs. Fails, with file and reason, on anything broken, on a missing buffer, on a
-/// required extension that neither Weft nor the options know, and where nothing is drawn. Touches no GL.
+/// Files are not trusted: everything is checked against its type and bounds, and memory is taken
+/// for no more than a file of its size needs. Fails, with file and reason, on anything broken, on a
+/// missing buffer, on a required extension that neither Weft nor the options know, and where
+/// nothing is drawn. Touches no GL.
 Result<GltfScene> loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace weft

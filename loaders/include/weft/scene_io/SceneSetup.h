@@ -10,7 +10,7 @@
 
 #include "weft/core/Result.h"
 #include "weft/materials/BTFMaterial.h"
-#include "weft/materials/ImageBasedLight.h"
+#include "weft/materials/LightFromEnvironment.h"
 #include "weft/scene_io/GltfLoader.h"
 #include "weft/scenegraph/Camera.h"
 #include "weft/scenegraph/Transform.h"
@@ -30,7 +30,8 @@ struct SceneOptions {
   };
 
   std::string scene;  ///< a glTF file, or shape:plane, shape:sphere, shape:cloth
-  std::map<std::string, std::string> materialFiles{};  ///< a `.rf.exr` a material; "*" for all not named
+  /// a `.rf.exr` a material; "*" for all not named
+  std::map<std::string, std::string> materialFiles{};
   BTFMaterialOptions btf{};
   ModelRegistry models = ModelRegistry::builtin();  ///< that reflectance fields may be of
   /// Where those come from, instead of models; null: each is read once for this scene.
@@ -41,9 +42,10 @@ struct SceneOptions {
   std::string cameraName{};                ///< empty: the file's first, or all of the scene
   std::optional<PointOfView> viewpoint{};  ///< instead of a name
   float aspect = 4.0f / 3.0f;              ///< of the picture: width / height
-  bool turns = false;                      ///< a camera of our own keeps all in the picture while it turns
-  std::string environment{};               ///< a file or a built-in name; empty for none
-  double environmentRotation = 0.0;        ///< degrees, clockwise seen from above
+  /// a camera of our own keeps all in the picture while it turns
+  bool turns = false;
+  std::string environment{};         ///< a file or a built-in name; empty for none
+  double environmentRotation = 0.0;  ///< degrees, clockwise seen from above
   LobeLookup environmentLobes = LobeLookup::Fitted;
 };
 
@@ -52,15 +54,16 @@ struct SceneOptions {
 /// Without lamps, lights of the file and an environment, one lamp stands above left of the camera.
 class SceneSetup {
  public:
-  /// Fails, with file and reason, as loadGltf(), loadBTFMaterial() and environmentNamed() do, and on names of
-  /// shapes, materials and cameras that are not there. Touches no GL.
+  /// Fails, with file and reason, as loadGltf(), loadBTFMaterial() and environmentNamed() do, and
+  /// on names of shapes, materials and cameras that are not there. Touches no GL.
   static Result<SceneSetup> create(const SceneOptions& options);
 
   const Node& root() const { return *root_; }
   const Camera& camera() const { return camera_; }
   const GltfScene& scene() const { return scene_; }
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
-  /// Turns the scene around its vertical axis, counter-clockwise seen from above; lights and camera stay.
+  /// Turns the scene around its vertical axis, counter-clockwise seen from above; lights and camera
+  /// stay.
   void turn(double radians);
 
  private:
@@ -70,7 +73,8 @@ class SceneSetup {
   Result<void> addEnvironment(const SceneOptions& options);
 
   GltfScene scene_;
-  std::shared_ptr<Node> root_ = std::make_shared<Node>();  ///< of what stays while the scene turns, too
+  /// of what stays while the scene turns, too
+  std::shared_ptr<Node> root_ = std::make_shared<Node>();
   std::shared_ptr<Transform> turn_ = std::make_shared<Transform>();
   Camera camera_;
   std::vector<std::string> warnings_;

@@ -18,24 +18,27 @@ enum class TexelFilter {
 };
 
 struct BTFMaterialOptions {
-  /// Repetitions of the material per unit of texture coordinates; positive, because a mirrored image would
-  /// need mirrored directions.
+  /// Repetitions of the material per unit of texture coordinates; positive, because a mirrored
+  /// image would need mirrored directions.
   glm::vec2 textureScale{1.0f};
   glm::vec3 tint{1.0f};   ///< linear; what is shown is multiplied by it
   float exposure = 0.0f;  ///< stops: what is shown is multiplied by 2 to their power
   int interpolatedViews =
-      3;  ///< 3: paper M eq. 4; 1: the nearest measured view alone, faster, with seams between views
+      /// 3: [Meseth 2004] eq. 4; 1: the nearest measured view alone, faster, with seams between
+      /// views
+      3;
   TexelFilter filter = TexelFilter::Nearest;
   /// BTFTextures::create()'s, where a field or a file is given; textures are prepared or not.
   bool preparedForEnvironments = false;
-  bool doubleSided = false;  ///< draw back faces, too, with the relief of the front seen in the mirror
+  /// draw back faces, too, with the relief of the front seen in the mirror
+  bool doubleSided = false;
 };
 
-/// A measured material, rendered from its reflectance field under point and directional lights (paper M 5.1
-/// and 5.4) and an environment (5.2): shared textures, and how they are shown.
+/// A measured material, rendered from its reflectance field under point and directional lights
+/// ([Meseth 2004] 5.1 and 5.4) and an environment (5.2): shared textures, and how they are shown.
 ///
-/// Needs meshes with texture coordinates and tangents; the texture repeats. GLSL: shaders/btf.frag, which
-/// computes what ReflectanceField::evaluate() and underEnvironment() do.
+/// Needs meshes with texture coordinates and tangents; the texture repeats. GLSL: shaders/btf.frag,
+/// which computes what ReflectanceField::evaluate() and underEnvironment() do.
 class BTFMaterial : public ChunkMaterial {
  public:
   /// Costs next to nothing. Fails on options that are none.
@@ -47,9 +50,9 @@ class BTFMaterial : public ChunkMaterial {
 
   const std::shared_ptr<const BTFTextures>& textures() const { return textures_; }
   const BTFMaterialOptions& options() const { return options_; }
-  /// Shows the same textures otherwise. Scale, tint and exposure are numbers of a block; filter and views
-  /// choose another program. Not while something is drawn. Fails on options that are none, and changes
-  /// nothing then.
+  /// Shows the same textures otherwise. Scale, tint and exposure are numbers of a block; filter and
+  /// views choose another program. Not while something is drawn. Fails on options that are none,
+  /// and changes nothing then.
   Result<void> setOptions(const BTFMaterialOptions& options);
 
  private:

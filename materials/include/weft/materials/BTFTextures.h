@@ -13,19 +13,21 @@
 
 namespace weft {
 
-/// A reflectance field for GL: the heavy part of BTFMaterial, which many materials and scenes share.
-/// Immutable, thread safe; touches no GL until something is drawn.
+/// A reflectance field for GL: the heavy part of BTFMaterial, which many materials and scenes
+/// share. Immutable, thread safe; touches no GL until something is drawn.
 class BTFTextures {
  public:
   /// Reads the same field once more; called on the thread of any context.
   using FieldSource = std::function<Result<ReflectanceField>()>;
 
-  /// Packs the field, which may go then. With a source nothing is kept in memory beside GL's copy: each
-  /// context but the first to draw it has the field read once more. Without one what is packed stays.
+  /// Packs the field, which may go then. With a source nothing is kept in memory beside GL's copy:
+  /// each context but the first to draw it has the field read once more. Without one what is packed
+  /// stays.
   ///
-  /// `preparedForEnvironments` stores the layers of models that have lobes (`rfnl`) a second time, as
-  /// environments are asked for them: frames under an environment take a third less, for twice the memory.
-  /// Fails where the views do not fit into one array texture of 2,048 layers, which every GL 4.5 has.
+  /// `preparedForEnvironments` stores the layers of models that have lobes (`rfnl`) a second time,
+  /// as environments are asked for them: frames under an environment take a third less, for twice
+  /// the memory. Fails where the views do not fit into one array texture of 2,048 layers, which
+  /// every GL 4.5 has.
   static Result<std::shared_ptr<const BTFTextures>> create(const ReflectanceField& field,
                                                            bool preparedForEnvironments = false,
                                                            FieldSource source = {});
@@ -38,7 +40,8 @@ class BTFTextures {
   const ShaderSource& source() const { return source_; }
   /// The uniform block, likewise.
   const FieldBlock& block() const { return block_; }
-  /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula for it.
+  /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula
+  /// for it.
   int environmentLights() const { return environmentLights_; }
 
  private:

@@ -6,10 +6,11 @@
 
 namespace weft {
 
-/// A material put together from chunks; the order in which they are set does not matter, their slots do.
+/// A material put together from chunks; the order in which they are set does not matter, their
+/// slots do.
 ///
-/// Starts with what surfaces need: a depth test that writes, and back faces culled. Building it touches no
-/// GL.
+/// Starts with what surfaces need: a depth test that writes, and back faces culled. Building it
+/// touches no GL.
 class ChunkMaterial : public Material {
  public:
   ChunkMaterial();

@@ -14,8 +14,8 @@ struct LambertOptions {
   bool doubleSided = false;                         ///< draw and light back faces, too
 };
 
-/// A matt surface: radiance = baseColor / pi x irradiance x n.l. What materials without a BTF are drawn with.
-/// GLSL: shaders/lambert.frag.
+/// A diffuse surface: radiance = baseColor / pi x irradiance x n.l. What materials without a BTF
+/// are drawn with. GLSL: shaders/lambert.frag.
 class LambertMaterial : public ChunkMaterial {
  public:
   explicit LambertMaterial(const LambertOptions& options = {});

@@ -12,21 +12,22 @@
 
 namespace weft {
 
-/// Light that arrives from all directions, infinitely far away: an equirectangular picture of linear
-/// radiance, in which a surface of radiance 1 shows 1.
+/// Light that arrives from all directions, infinitely far away: an equirectangular picture of
+/// linear radiance, in which a surface of radiance 1 shows 1.
 ///
-/// Row 0 is straight up (+Y, as in glTF), the middle column lies along -Z, to which a glTF camera looks, and
-/// columns to the right of it towards +X. All values are finite and not negative. Immutable, thread safe.
+/// Row 0 is straight up (+Y, as in glTF), the middle column lies along -Z, to which a glTF camera
+/// looks, and columns to the right of it towards +X. All values are finite and not negative.
+/// Immutable, thread safe.
 class Environment {
  public:
-  /// From an image with channels R, G, B, or one channel for grey. NaN and negative values become 0, infinite
-  /// and huge ones the brightest of the others (at most kBrightest); `warnings` gets a line for each such
-  /// kind, and where the width is not twice the height, in which case the image is stretched. Fails on other
-  /// channels.
+  /// From an image with channels R, G, B, or one channel for grey. NaN and negative values become
+  /// 0, infinite and huge ones the brightest of the others (at most kBrightest); `warnings` gets a
+  /// line for each such kind, and where the width is not twice the height, in which case the image
+  /// is stretched. Fails on other channels.
   static Result<Environment> create(const FloatImage& image, std::vector<std::string>& warnings);
 
-  /// One that needs no file: "studio" (a dark room with three softboxes) or "sky" (a low sun in a clear sky
-  /// above dark ground). Fails on other names.
+  /// One that needs no file: "studio" (a dark room with three softboxes) or "sky" (a low sun in a
+  /// clear sky above dark ground). Fails on other names.
   static Result<Environment> builtin(std::string_view name);
   static std::vector<std::string> builtinNames();
   /// The same radiance from everywhere.
@@ -51,8 +52,8 @@ class Environment {
   double solidAngle(int y) const;
   /// Smaller, at most so large, by averages over solid angle; equal where it is small already.
   Environment reduced(int width, int height) const;
-  /// Where it has fewer than 64 columns: bilinearly enlarged, so that texels, which sums take for points, are
-  /// small beside every lobe.
+  /// Where it has fewer than 64 columns: bilinearly enlarged, so that texels, which sums take for
+  /// points, are small beside every lobe.
   Environment enlarged() const;
   /// Between the middles of texels; places of `place()`.
   glm::vec3 bilinear(glm::vec2 place) const;

@@ -17,22 +17,24 @@ namespace weft {
 struct ReflectanceFieldDescription {
   std::vector<glm::vec3> views;   ///< fitted view directions, tangent frame, unit
   std::vector<glm::vec3> lights;  ///< fitted light directions, likewise
-  bool hasCosine = false;  ///< the model contains n.l (M's literal fit) instead of being multiplied by it
-  /// Of what the model evaluates to; anything but linear means a literal fit of stored values, as the
-  /// papers'.
+  /// the model contains n.l ([Meseth 2004]'s literal fit) instead of being multiplied by it
+  bool hasCosine = false;
+  /// Of what the model evaluates to; anything but linear means a literal fit of stored values, as
+  /// the papers'.
   Encoding encoding = Encoding::Linear;
   std::string source;     ///< the name of the measurement, for people
   std::string fitReport;  ///< JSON text of the fit's errors, as weft-fit wrote it; may be empty
 };
 
-/// Lights as a model is asked for them: FieldFormula::modelledLights() makes them once for many texels.
+/// Lights as a model is asked for them: FieldFormula::modelledLights() makes them once for many
+/// texels.
 struct ModelledLights {
   std::vector<glm::vec3> directions;
   std::vector<float> factors;  ///< of the model's values; 0 below the horizon
 };
 
-/// How the numbers of a texel become a value: the model, the cosine and the interpolation between layers. The
-/// CPU reference of shaders/btf.frag (paper M eq. 4). Immutable, thread safe.
+/// How the numbers of a texel become a value: the model, the cosine and the interpolation between
+/// layers. The CPU reference of shaders/btf.frag ([Meseth 2004] eq. 4). Immutable, thread safe.
 class FieldFormula {
  public:
   /// Fails where the directions are none or not of unit length, or a model that contains n.l has no
@@ -45,30 +47,32 @@ class FieldFormula {
   int layerCount() const { return layerCount_; }
   /// Between the directions of the layers.
   const HemisphereTriangulation& triangulation() const { return triangulation_; }
-  /// The z of the outermost measured lights above the horizon: where a model that has the cosine ends.
+  /// The z of the outermost measured lights above the horizon: where a model that has the cosine
+  /// ends.
   float lowestLightZ() const { return lowestLightZ_; }
   /// The z of the outermost measured views: below them, models are shown the view on their ring.
   float lowestViewZ() const { return lowestViewZ_; }
 
-  /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon. Here and
-  /// below, spans are as long as the model's lists of channels.
+  /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.
+  /// Here and below, spans are as long as the model's lists of channels.
   ///
-  /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured ring are
-  /// evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never extrapolated and
-  /// still ends at the terminator. Models see a view below the outermost measured ring as on it, at its own
-  /// azimuth.
+  /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured
+  /// ring are evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never
+  /// extrapolated and still ends at the terminator. Models see a view below the outermost measured
+  /// ring as on it, at its own azimuth.
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
   /// The same for many lights and one view.
   void evaluateLights(std::span<const float> shared, std::span<const float> layer,
                       const ModelledLights& lights, glm::vec3 view, std::span<glm::vec3> values) const;
   ModelledLights modelledLights(std::span<const glm::vec3> lights) const;
-  /// Whether light of an environment is integrated by the model's own formula; else quadrature() is summed.
+  /// Whether light of an environment is integrated by the model's own formula; else quadrature() is
+  /// summed.
   bool integratesEnvironments() const { return quadrature_.nodes.empty(); }
   const LightQuadrature& quadrature() const { return quadrature_; }
   /// What one layer shows of an environment, by the model's formula.
   glm::vec3 underEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
-                             const SurfaceLight& light) const;
+                             const EnvironmentIntegrals& light) const;
   /// The layers to interpolate, and their weights.
   DirectionWeights layersAround(glm::vec3 light, glm::vec3 view) const;
 

@@ -23,8 +23,8 @@ struct ModelTable {
   int height = 0;  ///< likewise
 };
 
-/// The model that evaluates with these tables; a model without tables itself. Fails where a table is missing,
-/// of another shape than declared, not finite, or not the model's at all.
+/// The model that evaluates with these tables; a model without tables itself. Fails where a table
+/// is missing, of another shape than declared, not finite, or not the model's at all.
 Result<std::shared_ptr<const ReflectanceModel>> boundModel(std::shared_ptr<const ReflectanceModel> model,
                                                            std::shared_ptr<const FieldTables> tables);
 

@@ -12,17 +12,18 @@
 
 namespace weft {
 
-/// A field's parameters as textures for a GPU. With FieldProgram the one place that knows how they lie in
-/// texels; shaders/fetch.glsl reads them.
+/// A field's parameters as textures for a GPU. With FieldProgram the one place that knows how they
+/// lie in texels; shaders/fetch.glsl reads them.
 ///
-/// They have the field's levels. Both are arrays of RGBA texels, as precise as the field. A colour channel
-/// has sharedTexels() of them for all layers, one after another: the base colour, and from its alpha on the
-/// shared numbers. Of each layer it has layerTexels(), the numbers padded to whole texels. Colour channels
-/// follow one another, then layers.
+/// They have the field's levels. Both are arrays of RGBA texels, as precise as the field. A colour
+/// channel has sharedTexels() of them for all layers, one after another: the base colour, and from
+/// its alpha on the shared numbers. Of each layer it has layerTexels(), the numbers padded to whole
+/// texels. Colour channels follow one another, then layers.
 struct FieldTextures {
   TextureImage shared;
-  TextureImage layers;          ///< empty for a model without layers
-  TextureImage preparedLayers;  ///< ReflectanceModel::prepareForEnvironments(); empty where not asked for
+  TextureImage layers;  ///< empty for a model without layers
+  /// ReflectanceModel::prepareForEnvironments(); empty where not asked for
+  TextureImage preparedLayers;
   /// By name, their channels as shared numbers are packed, from the first component on.
   std::map<std::string, TextureImage> tables{};
 
@@ -48,15 +49,17 @@ struct FieldBlock {
   float quadratureExponent = 1.0f;
 };
 
-/// What a program must know of a field beside FieldTextures to show it: small, and the same for every
-/// program.
+/// What a program must know of a field beside FieldTextures to show it: small, and the same for
+/// every program.
 struct FieldProgram {
-  std::map<std::string, std::string> defines;         ///< `#define NAME VALUE`; TABLE_NAME: a table's unit
+  /// `#define NAME VALUE`; TABLE_NAME: a table's unit
+  std::map<std::string, std::string> defines;
   std::map<std::string, std::string> includeAliases;  ///< as ShaderSource's
   std::map<std::string, std::string> texts;           ///< likewise
   FieldBlock block;
-  LayerLookup lookup;     ///< empty for a model without layers
-  FloatImage quadrature;  ///< a texel a node: light, weight; empty where the model's formula integrates
+  LayerLookup lookup;  ///< empty for a model without layers
+  /// a texel a node: light, weight; empty where the model's formula integrates
+  FloatImage quadrature;
 
   static FieldProgram create(const ReflectanceField& field);
 };

@@ -16,8 +16,8 @@ using OptionValue = std::variant<int, std::string>;
 /// "2" or "per-view", for people.
 std::string textOf(const OptionValue& value);
 
-/// An option that a type of model declares. Manifests, command lines, labels and the fingerprints of fits
-/// walk the declarations; nothing else knows which options there are.
+/// An option that a type of model declares. Manifests, command lines, labels and the fingerprints
+/// of fits walk the declarations; nothing else knows which options there are.
 struct ModelOption {
   struct Word {
     std::string word;
@@ -33,8 +33,8 @@ struct ModelOption {
 
   static ModelOption number(std::string name, std::string help, int standard, int smallest, int largest);
   static ModelOption choice(std::string name, std::string help, std::vector<Word> words);
-  /// `color`: whether the numbers describe luminance, which the texel's base colour turns into RGB, or each
-  /// colour channel by itself, as multiples of the base colour. ReflectanceModel knows it.
+  /// `color`: whether the numbers describe luminance, which the texel's base colour turns into RGB,
+  /// or each colour channel by itself, as multiples of the base colour. ReflectanceModel knows it.
   static ModelOption color();
 
   /// The values that it may have: "1 to 4", "shared, per-view".
@@ -47,12 +47,14 @@ struct ModelOption {
 /// What a file or a command line says of a model; ModelRegistry makes the model from it.
 struct ModelDescription {
   std::string name = "rfnl";
-  std::map<std::string, OptionValue> options{};  ///< by name; those that are left out have their standard
+  /// by name; those that are left out have their standard
+  std::map<std::string, OptionValue> options{};
 
   bool operator==(const ModelDescription&) const = default;
 };
 
-/// The options of one model, declared ones only, each with a value in its range: what models are made from.
+/// The options of one model, declared ones only, each with a value in its range: what models are
+/// made from.
 class ModelOptions {
  public:
   /// Fails on an option that is not declared, naming those that are, and on a value out of range.

@@ -20,7 +20,8 @@ struct ModelType {
   std::string purpose;  ///< one sentence: what it is
   std::vector<ModelOption> options;
   Factory make;
-  bool fitsStoredValues = false;  ///< unless asked otherwise: to values as the measurement stores them
+  /// unless asked otherwise: to values as the measurement stores them
+  bool fitsStoredValues = false;
 };
 
 /// Makes models by name. A value: build your own, or start from builtin() and add to it.

@@ -7,8 +7,9 @@
 
 namespace weft {
 
-/// All directions on a square, so that one bilinear fetch reads what depends on a direction: the octahedron
-/// |x| + |y| + |z| = 1 seen from +z, its lower half folded outwards (shaders/environment.glsl has the same).
+/// All directions on a square, so that one bilinear fetch reads what depends on a direction: the
+/// octahedron |x| + |y| + |z| = 1 seen from +z, its lower half folded outwards
+/// (shaders/environment.glsl has the same).
 ///
 /// An image of it has a border of one texel that repeats what lies beyond its folded edges.
 struct OctahedralMap {

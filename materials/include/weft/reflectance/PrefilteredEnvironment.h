@@ -6,8 +6,9 @@
 
 namespace weft {
 
-/// An environment as shaders look it up: averages of its radiance over lobes of every direction and width
-/// (paper M 5.2). Octahedral maps with a border, half precision, channels R, G, B, divided by `scale`.
+/// An environment as shaders look it up: averages of its radiance over lobes of every direction and
+/// width ([Meseth 2004] 5.2). Octahedral maps with a border, half precision, channels R, G, B,
+/// divided by `scale`.
 ///
 /// A white surface's share of a constant environment of 1 is 1 in all of them.
 struct PrefilteredEnvironment {
@@ -18,14 +19,14 @@ struct PrefilteredEnvironment {
   static constexpr int kMomentLayers = 10;
   static constexpr int kGlossyLayers = 13;
 
-  /// Averages over (t.l)^n, the dot product clamped at 0: layer i has n = 2^(i / kLobesPerOctave), 1 to 256.
-  /// The first layer is what a white matt surface of normal t shows.
+  /// Averages over (t.l)^n, the dot product clamped at 0: layer i has n = 2^(i / kLobesPerOctave),
+  /// 1 to 256. The first layer is what a white diffuse surface of normal t shows.
   FloatImage lobes;
-  /// Integrals of radiance (n.l) w(l) / pi over the hemisphere of n for w = 1, x, y, z, xx, yy, zz, xy, xz,
-  /// yz.
+  /// Integrals of radiance (n.l) w(l) / pi over the hemisphere of n for w = 1, x, y, z, xx, yy, zz,
+  /// xy, xz, yz.
   FloatImage moments;
-  /// Averages over what a GGX surface seen head-on reflects of the surroundings of t: layer i has roughness i
-  /// / (kGlossyLayers - 1).
+  /// Averages over what a GGX surface seen head-on reflects of the surroundings of t: layer i has
+  /// roughness i / (kGlossyLayers - 1).
   FloatImage glossy;
   /// A power of two that keeps everything within the range of half precision.
   float scale = 1.0f;

@@ -14,22 +14,23 @@ namespace weft {
 /// The numbers of every texel at one resolution.
 struct FieldLevel {
   FloatImage shared;  ///< one layer, the model's shared channels
-  FloatImage layers;  ///< a layer a view or light, the model's layer channels; empty for a model without
+  /// a layer a view or light, the model's layer channels; empty for a model without
+  FloatImage layers;
 };
 
-/// A fitted material in memory: the numbers of a ReflectanceModel for every texel and layer, and the CPU
-/// reference of how they are shaded (paper M eq. 4).
+/// A fitted material in memory: the numbers of a ReflectanceModel for every texel and layer, and
+/// the CPU reference of how they are shaded ([Meseth 2004] eq. 4).
 ///
-/// The same at one resolution or more, *levels*, of which each has half the sides of the one before, and
-/// *tables*, which a model may share between all texels.
+/// The same at one resolution or more, *levels*, of which each has half the sides of the one
+/// before, and *tables*, which a model may share between all texels.
 ///
-/// Values are in units of a white Lambertian surface lit head-on: radiance = value x irradiance / pi, n.l
-/// included. Immutable, thread safe.
+/// Values are in units of a white Lambertian surface lit head-on: radiance = value x irradiance /
+/// pi, n.l included. Immutable, thread safe.
 class ReflectanceField {
  public:
-  /// Level 0 is the finest, the sides of level i are its sides halved i times, rounded down, at least 1.
-  /// Binds the model to the tables. Fails when there is no level, when sizes, channel names, directions or
-  /// tables do not fit together, or where a number is not finite.
+  /// Level 0 is the finest, the sides of level i are its sides halved i times, rounded down, at
+  /// least 1. Binds the model to the tables. Fails when there is no level, when sizes, channel
+  /// names, directions or tables do not fit together, or where a number is not finite.
   static Result<ReflectanceField> create(std::shared_ptr<const ReflectanceModel> model,
                                          ReflectanceFieldDescription description,
                                          std::vector<FieldLevel> levels, FieldTables tables = {});
@@ -51,15 +52,15 @@ class ReflectanceField {
   const std::vector<FieldLevel>& levels() const { return levels_; }
   const FieldTables& tables() const { return *tables_; }
 
-  /// The value of one texel of level 0, n.l included, of one layer alone; 0 for lights below the horizon.
-  /// `layer` does not matter for a model without layers.
+  /// The value of one texel of level 0, n.l included, of one layer alone; 0 for lights below the
+  /// horizon. `layer` does not matter for a model without layers.
   glm::vec3 evaluateLayer(int x, int y, int layer, glm::vec3 light, glm::vec3 view) const;
   /// The same interpolated between three layers with the given weights.
   glm::vec3 evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const;
   /// The same between the layers around the directions.
   glm::vec3 evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const;
   /// What one texel shows of an environment, radiance: the CPU reference of shaders/btf.frag.
-  glm::vec3 underEnvironment(int x, int y, glm::vec3 view, const SurfaceLight& light) const;
+  glm::vec3 underEnvironment(int x, int y, glm::vec3 view, const EnvironmentIntegrals& light) const;
 
  private:
   explicit ReflectanceField(FieldFormula formula) : formula_(std::move(formula)) {}

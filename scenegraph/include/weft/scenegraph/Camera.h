@@ -9,7 +9,8 @@ namespace weft {
 
 /// A perspective or orthographic view, looking along -Z of its own frame as in glTF. GL clip space.
 ///
-/// Places are doubles, since a picture far from the world's origin has to be as steady as one near it.
+/// Places are doubles, since a picture far from the world's origin has to be as steady as one near
+/// it.
 struct Camera {
   glm::dmat4 view{1.0};              ///< world to camera
   float verticalFieldOfView = 0.7f;  ///< radians
@@ -21,8 +22,8 @@ struct Camera {
 
   glm::dmat4 projection(float aspect) const;
   glm::dvec3 position() const;
-  /// Where it is seen from, homogeneous: position() with w = 1; of an orthographic view the unit direction
-  /// towards the viewer with w = 0.
+  /// Where it is seen from, homogeneous: position() with w = 1; of an orthographic view the unit
+  /// direction towards the viewer with w = 0.
   glm::dvec4 eye() const;
 
   /// Whether all rays are parallel.

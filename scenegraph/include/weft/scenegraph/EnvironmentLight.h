@@ -9,13 +9,13 @@
 
 namespace weft {
 
-/// Light from all sides, infinitely far away, that its node turns (moving it changes nothing). A scene has at
-/// most one. makeEnvironmentLight() of weft::materials makes it from a picture.
+/// Light from all sides, infinitely far away, that its node turns (moving it changes nothing). A
+/// scene has at most one. makeEnvironmentLight() of weft::materials makes it from a picture.
 class EnvironmentLight : public Light {
  public:
-  /// `lighting`: chunks that every program finds beside those of its material, in slots that materials leave
-  /// empty; `variant`: what programs are told of them; `background`: what is drawn behind everything;
-  /// `scale`: what the values of `lighting` are multiplied by.
+  /// `lighting`: chunks that every program finds beside those of its material, in slots that
+  /// materials leave empty; `variant`: what programs are told of them; `background`: what is drawn
+  /// behind everything; `scale`: what the values of `lighting` are multiplied by.
   EnvironmentLight(State lighting, ShaderVariant variant, std::shared_ptr<const Material> background,
                    float scale)
       : lighting_(std::move(lighting)),

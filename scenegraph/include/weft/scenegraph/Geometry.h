@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Draws a mesh with the material of the outermost MaterialGroup above it. The mesh is immutable, so that
-/// many cores and contexts can share it; Node::setCore() shows another one.
+/// Draws a mesh with the material of the outermost MaterialGroup above it. The mesh is immutable,
+/// so that many cores and contexts can share it; Node::setCore() shows another one.
 class Geometry : public NodeCore {
  public:
   explicit Geometry(std::shared_ptr<const Mesh> mesh);

@@ -9,9 +9,9 @@
 
 namespace weft {
 
-/// Shows one of its node's children by the distance to the eye, in world units: child 0 up to ranges[0],
-/// child i from ranges[i - 1] to ranges[i], the child after the last range from there on; nothing where that
-/// child does not exist. Picking measures from the start of the ray.
+/// Shows one of its node's children by the distance to the eye, in world units: child 0 up to
+/// ranges[0], child i from ranges[i - 1] to ranges[i], the child after the last range from there
+/// on; nothing where that child does not exist. Picking measures from the start of the ray.
 class LOD : public NodeCore {
  public:
   /// `ranges` rise; `center`, in the node's coordinates, is where the distance is measured to.

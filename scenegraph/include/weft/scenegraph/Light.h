@@ -10,7 +10,8 @@ namespace weft {
 /// What lights a scene from its node's place. The members of all kinds are read anew in each frame.
 class Light : public NodeCore {};
 
-/// Light from its node's origin in all directions: irradiance = intensity / distance^2. glTF: candela.
+/// Light from its node's origin in all directions: irradiance = intensity / distance^2. glTF:
+/// candela.
 class PointLight : public Light {
  public:
   explicit PointLight(glm::vec3 candela) : intensity(candela) {}
@@ -23,8 +24,8 @@ class PointLight : public Light {
 /// Light from its node's origin in a cone around its -Z axis, as in glTF.
 class SpotLight : public Light {
  public:
-  /// Full intensity up to `inner`, none from `outer` on: angles to the axis in radians, inner < outer <=
-  /// pi/2.
+  /// Full intensity up to `inner`, none from `outer` on: angles to the axis in radians, inner <
+  /// outer <= pi/2.
   explicit SpotLight(glm::vec3 candela, float inner = 0.0f, float outer = 0.7853982f)
       : intensity(candela), innerAngle(inner), outerAngle(outer) {}
 
@@ -34,8 +35,8 @@ class SpotLight : public Light {
   float range = std::numeric_limits<float>::infinity();  ///< as PointLight's
 };
 
-/// Parallel light along its node's -Z axis, as in glTF: `irradiance` (lux) on a surface that faces it. A
-/// white surface then shows irradiance / pi.
+/// Parallel light along its node's -Z axis, as in glTF: `irradiance` (lux) on a surface that faces
+/// it. A white surface then shows irradiance / pi.
 class DirectionalLight : public Light {
  public:
   explicit DirectionalLight(glm::vec3 lux) : irradiance(lux) {}

@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// Gives everything below it a material. Where groups are nested the outermost wins, so that a whole model
-/// can be re-dressed from above; null leaves it to the groups below.
+/// Gives everything below it a material. Where groups are nested the outermost wins, so that a
+/// whole model can be re-dressed from above; null leaves it to the groups below.
 class MaterialGroup : public NodeCore {
  public:
   explicit MaterialGroup(std::shared_ptr<const Material> material) : material_(std::move(material)) {}

@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// What a mesh's indices join: triples to triangles, pairs to lines, or each one a point. Lines and points
-/// are a pixel wide and have no back.
+/// What a mesh's indices join: triples to triangles, pairs to lines, or each one a point. Lines and
+/// points are a pixel wide and have no back.
 enum class Topology { Triangles, Lines, Points };
 
 /// How many indices make one of them.
@@ -18,18 +18,21 @@ constexpr std::size_t verticesPer(Topology topology) {
   return topology == Topology::Triangles ? 3 : topology == Topology::Lines ? 2 : 1;
 }
 
-/// Indexed triangles (or lines, or points), counter-clockwise seen from the front, in glTF's conventions: V
-/// runs down the image, and the bitangent, which points *up* the image, is tangent.w (N x T).
+/// Indexed triangles (or lines, or points), counter-clockwise seen from the front, in glTF's
+/// conventions: V runs down the image, and the bitangent, which points *up* the image, is tangent.w
+/// (N x T).
 ///
-/// Attribute lists are as long as `positions`; generateNormals() and generateTangents() fill what a file
-/// leaves out.
+/// Attribute lists are as long as `positions`; generateNormals() and generateTangents() fill what a
+/// file leaves out.
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;   ///< unit
   std::vector<glm::vec4> tangents;  ///< xyz unit and along +U, w = +1 or -1
   std::vector<glm::vec2> texcoords;
-  std::vector<glm::vec2> texcoords1;  ///< a second set, for the textures that ask for it; empty: zeros
-  std::vector<glm::vec4> colors;      ///< linear RGB and alpha, which PBRMaterial multiplies; empty: white
+  /// a second set, for the textures that ask for it; empty: zeros
+  std::vector<glm::vec2> texcoords1;
+  /// linear RGB and alpha, which PBRMaterial multiplies; empty: white
+  std::vector<glm::vec4> colors;
   std::vector<std::uint32_t> indices;
   Topology topology = Topology::Triangles;
 };

@@ -11,11 +11,12 @@ namespace weft {
 
 class FlatScene;
 
-/// A place in the scene: a core and children. It has one parent at most; what shows at several places is a
-/// core that several nodes share.
+/// A place in the scene: a core and children. It has one parent at most; what shows at several
+/// places is a core that several nodes share.
 ///
-/// A tree may be built on any thread, and its parts on several. It is not changed while it is rendered. Nodes
-/// and cores note when they change, so that a frame looks again only at the branches in which something did.
+/// A tree may be built on any thread, and its parts on several. It is not changed while it is
+/// rendered. Nodes and cores note when they change, so that a frame looks again only at the
+/// branches in which something did.
 class Node {
  public:
   explicit Node(std::shared_ptr<const NodeCore> core = std::make_shared<Group>(), std::string name = {});

@@ -8,8 +8,8 @@ class Node;
 
 /// What a Node does: a transform, a geometry, a material for everything below, a light.
 ///
-/// One core may be shared by many nodes (instancing), also by trees that are built on different threads at
-/// once. It is changed only where none of them is rendered or built.
+/// One core may be shared by many nodes (instancing), also by trees that are built on different
+/// threads at once. It is changed only where none of them is rendered or built.
 class NodeCore {
  public:
   virtual ~NodeCore() = default;

@@ -19,12 +19,13 @@ struct Hit {
   std::size_t triangle = 0;       ///< its number in the mesh
 };
 
-/// The nearest triangle of the scene that the ray meets, from either side; none where it meets nothing.
+/// The nearest triangle of the scene that the ray meets, from either side; none where it meets
+/// nothing.
 ///
-/// Sees what is drawn: the shown children of Switch nodes, and of LOD nodes those for an eye at the ray's
-/// origin. Exact between neighbours: a ray cannot slip through an edge that two triangles share. Lines and
-/// points are not met. As RenderAction::render(), it may run on several threads, but not while the tree is
-/// changed.
+/// Sees what is drawn: the shown children of Switch nodes, and of LOD nodes those for an eye at the
+/// ray's origin. Exact between neighbours: a ray cannot slip through an edge that two triangles
+/// share. Lines and points are not met. As RenderAction::render(), it may run on several threads,
+/// but not while the tree is changed.
 std::optional<Hit> pick(const Node& root, const Ray& ray);
 
 }  // namespace weft

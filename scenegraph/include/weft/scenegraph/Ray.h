@@ -12,8 +12,8 @@ struct Ray {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0, 0.0, -1.0};
 
-  /// Through a place of the picture, from the near plane on: (0, 0) is its upper left corner, (1, 1) its
-  /// lower right one. World space; `aspect`: width / height.
+  /// Through a place of the picture, from the near plane on: (0, 0) is its upper left corner, (1,
+  /// 1) its lower right one. World space; `aspect`: width / height.
   static Ray through(const Camera& camera, glm::vec2 place, float aspect);
 };
 

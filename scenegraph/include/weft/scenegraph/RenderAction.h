@@ -13,8 +13,8 @@
 
 namespace weft {
 
-/// Which part of what surfaces reflect is shown: paper M fig. 6 shows them apart. Matt is what the models
-/// call diffuse, and all of a polynomial.
+/// Which part of what surfaces reflect is shown: [Meseth 2004] fig. 6 shows them apart. Diffuse is
+/// what the models call diffuse, and all of a polynomial.
 enum class ReflectedPart { All, Diffuse, Specular };
 
 struct RenderOptions {
@@ -24,20 +24,22 @@ struct RenderOptions {
 
 /// What one frame did.
 struct RenderStatistics {
-  std::size_t objects = 0;       ///< geometries in the scene, once for each place at which they are shown
-  std::size_t culled = 0;        ///< of these, outside of the picture or not at their level of detail
+  /// geometries in the scene, once for each place at which they are shown
+  std::size_t objects = 0;
+  /// of these, outside of the picture or not at their level of detail
+  std::size_t culled = 0;
   std::size_t triangles = 0;     ///< drawn; lines and points are not counted
   std::size_t drawCalls = 0;     ///< of GL, each of which may draw many objects
   std::size_t draws = 0;         ///< within these: meshes, or groups of instances of one
   std::size_t stateChanges = 0;  ///< from one material to another
   std::size_t lights = 0;
-  /// Nodes that were looked at again: they changed since the scene was last drawn or picked from, or
-  /// something above them did. All of them in the first frame.
+  /// Nodes that were looked at again: they changed since the scene was last drawn or picked from,
+  /// or something above them did. All of them in the first frame.
   std::size_t updatedNodes = 0;
 };
 
-/// Draws a scene. One may serve many scenes, targets and contexts, one render() at a time; several may draw
-/// the same scene at once, each on the thread of its own context.
+/// Draws a scene. One may serve many scenes, targets and contexts, one render() at a time; several
+/// may draw the same scene at once, each on the thread of its own context.
 class RenderAction {
  public:
   RenderAction();
@@ -45,16 +47,16 @@ class RenderAction {
   RenderAction(RenderAction&&) noexcept;
   RenderAction& operator=(RenderAction&&) noexcept;
 
-  /// Draws everything below `root` as the camera sees it, lit by the lights below `root`, and leaves GL as it
-  /// starts up, but for the viewport. Fails on more than 16 lights or one environment, on a geometry without
-  /// a material, and on whatever was reported to the context: a shader that does not compile, an image too
-  /// large.
+  /// Draws everything below `root` as the camera sees it, lit by the lights below `root`, and
+  /// leaves GL as it starts up, but for the viewport. Fails on more than 16 lights or one
+  /// environment, on a geometry without a material, and on whatever was reported to the context: a
+  /// shader that does not compile, an image too large.
   Result<void> render(GLContext& context, const Node& root, const Camera& camera, const RenderTarget& target,
                       const RenderOptions& options = {});
 
-  /// Draws over what is in the current framebuffer, in the current viewport; GL is as it starts up but for
-  /// what says where to draw. PassiveWindow::render() sees to that. `encoding`: of the colours written,
-  /// Linear or Srgb.
+  /// Draws over what is in the current framebuffer, in the current viewport; GL is as it starts up
+  /// but for what says where to draw. PassiveWindow::render() sees to that. `encoding`: of the
+  /// colours written, Linear or Srgb.
   Result<void> renderInPlace(GLContext& context, const Node& root, const Camera& camera, Encoding encoding);
 
   /// Of the latest frame.

@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// What is rendered into: linear RGBA, half or float, with a depth buffer. One picture per context that
-/// renders into it.
+/// What is rendered into: linear RGBA, half or float, with a depth buffer. One picture per context
+/// that renders into it.
 class RenderTarget {
  public:
   /// Sizes must be positive.
@@ -19,17 +19,17 @@ class RenderTarget {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Makes the picture in the context, which bindAndClear() otherwise does. Fails where it is larger than GL
-  /// allows or has memory for, and says how large one of this shape may be.
+  /// Makes the picture in the context, which bindAndClear() otherwise does. Fails where it is
+  /// larger than GL allows or has memory for, and says how large one of this shape may be.
   Result<void> prepare(GLContext& context) const;
 
-  /// Makes it the place that is drawn to, over its whole area, and clears it to linear RGBA; unbind() ends
-  /// that. What prepare() fails on is reported to the context.
+  /// Makes it the place that is drawn to, over its whole area, and clears it to linear RGBA;
+  /// unbind() ends that. What prepare() fails on is reported to the context.
   void bindAndClear(GLContext& context, const glm::vec4& background) const;
   static void unbind();
 
-  /// The picture, channels R, G, B, A; zeros where nothing was rendered. `downsample` n averages n x n pixels
-  /// into one (supersampling) and must divide both sizes.
+  /// The picture, channels R, G, B, A; zeros where nothing was rendered. `downsample` n averages n
+  /// x n pixels into one (supersampling) and must divide both sizes.
   FloatImage read(GLContext& context, int downsample = 1) const;
 
  private:

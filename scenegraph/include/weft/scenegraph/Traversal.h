@@ -18,11 +18,12 @@ enum class Visit {
   Stop,      ///< nothing
 };
 
-/// Shows a visitor the root and everything below it, parents before children, children in their order,
-/// however deep; also what a Switch or LOD does not show. False where it was stopped.
+/// Shows a visitor the root and everything below it, parents before children, children in their
+/// order, however deep; also what a Switch or LOD does not show. False where it was stopped.
 ///
-/// `visitor(node, toWorld)` returns a Visit. `toWorld` are the node's coordinates, its own transform
-/// included, in those in which the root stands. It may change the node and what is below it.
+/// `visitor(node, toWorld)` returns a Visit. `toWorld` are the node's coordinates, its own
+/// transform included, in those in which the root stands. It may change the node and what is below
+/// it.
 template <class Root, class Visitor>
 requires std::same_as<std::remove_const_t<Root>, Node>
 bool traverse(Root& root, Visitor visitor) {

@@ -13,7 +13,8 @@
 
 namespace weft {
 
-/// Which GLSL files a program is made of. Files are named as in `shaders/`, whose texts are compiled in.
+/// Which GLSL files a program is made of. Files are named as in `shaders/`, whose texts are
+/// compiled in.
 struct ShaderSource {
   std::string vertex;
   std::string fragment;
@@ -33,13 +34,14 @@ struct ShaderText {
   std::string text;
   std::vector<std::string> places;  ///< "FILE:LINE" of every line of the text
 
-  /// A compiler's message about the text with places instead of line numbers: "mesh.vert:12(5): error".
-  /// `firstPlace` becomes the first of them.
+  /// A compiler's message about the text with places instead of line numbers: "mesh.vert:12(5):
+  /// error". `firstPlace` becomes the first of them.
   std::string withPlaces(std::string_view log, std::string& firstPlace) const;
 };
 
-/// Puts together the stage that starts with `file`, one of the source's two. Fails on a missing file or on an
-/// include that is not `#include "FILE"`, naming file and line. `#version` must be on a line of its own.
+/// Puts together the stage that starts with `file`, one of the source's two. Fails on a missing
+/// file or on an include that is not `#include "FILE"`, naming file and line. `#version` must be on
+/// a line of its own.
 Result<ShaderText> assembleShader(const ShaderSource& source, const std::string& file);
 
 }  // namespace weft

@@ -1,16 +1,17 @@
-// Texture units and bindings of uniform blocks, named once: shaders include this file, and so does Bindings.h for C++.
+// Texture units and bindings of uniform blocks, named once: shaders include this file, and so does
+// Bindings.h for C++.
 
 // Uniform blocks.
 const int frameBinding = 0;     // lights.glsl, filled by the renderer
 const int materialBinding = 2;  // what the fragment shader of a material reads
 
 // Textures of btf.frag.
-const int layerNumbersUnit = 0;
-const int sharedNumbersUnit = 1;
+const int layerParametersUnit = 0;
+const int sharedParametersUnit = 1;
 const int triangleOfDirectionUnit = 2;
 const int trianglesUnit = 3;
 const int quadratureUnit = 4;
-const int preparedNumbersUnit = 5;
+const int preparedParametersUnit = 5;
 const int firstTableUnit = 8;  // of a field's tables, as many as mostTables
 const int mostTables = 8;
 

@@ -2,8 +2,8 @@
 
 namespace weft {
 
-/// The processes that `mpirun` started together: this program alone where it did not, or where Weft was built
-/// without MPI. Make one at the start of main(), and use it from one thread.
+/// The processes that `mpirun` started together: this program alone where it did not, or where Weft
+/// was built without MPI. Make one at the start of main(), and use it from one thread.
 class ProcessGroup {
  public:
   ProcessGroup();

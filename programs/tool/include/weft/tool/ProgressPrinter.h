@@ -5,7 +5,8 @@
 
 namespace weft {
 
-/// Tells people how far long work is: on a terminal one line that is rewritten, otherwise a line every 10 s.
+/// Tells people how far long work is: on a terminal one line that is rewritten, otherwise a line
+/// every 10 s.
 class ProgressPrinter {
  public:
   /// `amount` `unit`s are done at fraction 1; 0 prints no rate.

@@ -35,50 +35,56 @@ struct ToolDescription {
   std::string version = WEFT_VERSION;
 };
 
-/// What all command line programs share: options, exit codes, messages, progress, `--json`, interruption.
+/// What all command line programs share: options, exit codes, messages, progress, `--json`,
+/// interruption.
 ///
 ///     weft::Tool tool({"weft-fit", "Fits ...", "weft-fit wool.zip -o wool.rf.exr"});
-///     tool.options().add_option("INPUT", input, "what to fit")->required();  // include <CLI/CLI.hpp>
+///     // include <CLI/CLI.hpp>
+///     tool.options().add_option("INPUT", input, "what to fit")->required();
 ///     tool.addOutput("-o", output, "the .rf.exr to write")->required();
 ///     return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> { ... });
 ///
 /// Every program gets --help, --version, --quiet, --threads and --json.
 class Tool {
  public:
-  /// Make it first in main(), before any thread (those of MPI included): an interruption (Ctrl-C, SIGTERM,
-  /// SIGHUP, ...) from then on removes what AtomicFile has not committed and ends the program.
+  /// Make it first in main(), before any thread (those of MPI included): an interruption (Ctrl-C,
+  /// SIGTERM, SIGHUP, ...) from then on removes what AtomicFile has not committed and ends the
+  /// program.
   explicit Tool(ToolDescription description);
   ~Tool();
 
   /// To add the program's own options to.
   CLI::App& options();
-  /// The same for the name of a file that is written: run() finds out before the work whether it can be,
-  /// and refuses to replace a file that another option names as input. Include <CLI/CLI.hpp>.
+  /// The same for the name of a file that is written: run() finds out before the work whether it
+  /// can be, and refuses to replace a file that another option names as input. Include
+  /// <CLI/CLI.hpp>.
   CLI::Option* addOutput(const std::string& name, std::filesystem::path& file, const std::string& help);
 
-  /// Parses the command line, then does `work`, and returns the exit code for main(). A failure of `work`, or
-  /// an exception, is printed as "NAME: message" and ends with BadInput; so does an output that cannot be
-  /// written. Bad options end with BadUsage. In both cases `work` has not started.
+  /// Parses the command line, then does `work`, and returns the exit code for main(). A failure of
+  /// `work`, or an exception, is printed as "NAME: message" and ends with BadInput; so does an
+  /// output that cannot be written. Bad options end with BadUsage. In both cases `work` has not
+  /// started.
   int run(int argc, const char* const* argv, const std::function<Result<ExitCode>()>& work);
 
   /// For options that are wrong together: prints the message; return what it returns.
   ExitCode badUsage(const std::string& message) const;
 
-  /// Prints a result for people on stdout, unless `--json -` wants that for itself. Where stdout is full
-  /// or closed, run() ends with BadInput.
+  /// Prints a result for people on stdout, unless `--json -` wants that for itself. Where stdout is
+  /// full or closed, run() ends with BadInput.
   void print(const std::string& text) const;
   /// Prints "NAME: message" on stderr: what was assumed, dropped or guessed. --quiet keeps it.
   void warn(const std::string& message) const;
-  /// Prints progress on stderr: on a terminal one line with rate and time left, else a line every 10 s, with
-  /// --quiet nothing. `amount` `unit`s ("texels") are done at fraction 1; 0 prints no rate.
+  /// Prints progress on stderr: on a terminal one line with rate and time left, else a line every
+  /// 10 s, with --quiet nothing. `amount` `unit`s ("texels") are done at fraction 1; 0 prints no
+  /// rate.
   Progress progress(std::string label, double amount = 0.0, std::string unit = {}) const;
 
-  /// For outputs that no option names as they are (numbered pictures, files of a folder): the checks that
-  /// addOutput() promises. Call it before the work.
+  /// For outputs that no option names as they are (numbered pictures, files of a folder): the
+  /// checks that addOutput() promises. Call it before the work.
   Result<void> checkOutput(const std::filesystem::path& file) const;
 
-  /// Adds files that an input names itself, as a glTF does its images, to what no output may replace, and checks
-  /// the outputs again. Call it before anything is written.
+  /// Adds files that an input names itself, as a glTF does its images, to what no output may
+  /// replace, and checks the outputs again. Call it before anything is written.
   Result<void> protect(const std::vector<std::filesystem::path>& inputs) const;
 
   /// The number of threads that TBB may use.

@@ -1,4 +1,4 @@
-#include "weft/reflectance/SurfaceLight.h"
+#include "weft/reflectance/EnvironmentIntegrals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "weft/materials/ImageBasedLight.h"
+#include "weft/materials/LightFromEnvironment.h"
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -49,7 +49,8 @@ glm::vec3 lookUp(const FloatImage& maps, glm::vec3 direction, int layer) {
   return value;
 }
 
-/// Two parabolic maps for each exponent 2^(i / 2), around +z and -z, in a column, with a border of a texel.
+/// Two parabolic maps for each exponent 2^(i / 2), around +z and -z, in a column, with a border of
+/// a texel.
 std::shared_ptr<const FloatImage> parabolicMaps(const PrefilteredEnvironment& prefiltered) {
   auto image = std::make_shared<FloatImage>(kParabolicSize, 2 * kParabolicExponents * kParabolicSize,
                                             std::vector<std::string>{"R", "G", "B", "A"});
@@ -94,16 +95,17 @@ std::shared_ptr<EnvironmentLight> makeEnvironmentLight(const Environment& enviro
     variant.includeAliases["lobes.glsl"] = "lobes_paper.glsl";
   } else {
     lighting.set(textureSlot(bindings::environmentLobesUnit),
-                 smooth(withAlpha(prefiltered.lobes), TextureShape::Volume));
+                 smooth(withAlpha(prefiltered.lobes), TextureShape::ThreeDimensional));
     variant.defines.emplace_back("ENVIRONMENT_LOBES",
                                  std::to_string(PrefilteredEnvironment::kLobesPerOctave));
   }
   lighting.set(textureSlot(bindings::environmentMomentsUnit),
-               smooth(withAlpha(prefiltered.moments), TextureShape::Volume));
+               smooth(withAlpha(prefiltered.moments), TextureShape::ThreeDimensional));
   lighting.set(textureSlot(bindings::environmentGlossyUnit),
-               smooth(withAlpha(prefiltered.glossy), TextureShape::Volume));
-  lighting.set(textureSlot(bindings::microfacetTableUnit),
-               smooth(std::make_shared<const FloatImage>(MicrofacetTable().image()), TextureShape::Flat));
+               smooth(withAlpha(prefiltered.glossy), TextureShape::ThreeDimensional));
+  lighting.set(
+      textureSlot(bindings::microfacetTableUnit),
+      smooth(std::make_shared<const FloatImage>(MicrofacetTable().image()), TextureShape::TwoDimensional));
   return std::make_shared<EnvironmentLight>(std::move(lighting), std::move(variant),
                                             backgroundOf(environment), prefiltered.scale);
 }
