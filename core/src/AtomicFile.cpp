@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // process.
 struct Pending {
   std::mutex mutex;
-  std::set<const LockedTemporary*> temporaries;
+  std::set<LockedTemporary*> temporaries;
   std::set<fs::path> sweptFolders;
   bool interrupted = false;
 };
@@ -91,7 +91,7 @@ void AtomicFile::removeAllPending() {
   Pending& all = pending();
   const std::scoped_lock lock(all.mutex);
   all.interrupted = true;
-  for (const LockedTemporary* temporary : all.temporaries) temporary->remove();
+  for (LockedTemporary* temporary : all.temporaries) temporary->remove();
   all.temporaries.clear();
 }
 

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,8 @@
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "Descriptor.h"
 
 namespace weft {
 namespace {
@@ -30,12 +31,10 @@ std::string hostName() {
   return name.data();
 }
 
-// Where a file system knows no locks, owners go without, and nothing is ever swept.
-bool isHeld(const Descriptor& lock, bool withoutLocks) {
-  struct stat status {};
-  if (flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || !withoutLocks)) return false;
-  // nobody has removed it in between
-  return fstat(lock.number(), &status) == 0 && status.st_nlink > 0;
+/// Where a file system does not, every temporary looks like a leftover.
+bool knowsLocks(const fs::path& folder) {
+  const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return opened.isOpen() && (flock(opened.number(), LOCK_SH | LOCK_NB) == 0 || errno == EWOULDBLOCK);
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder, std::string_view prefix, std::string_view suffix) {
@@ -49,49 +48,42 @@ std::vector<fs::path> filesIn(const fs::path& folder, std::string_view prefix, s
   return files;
 }
 
-// The lock goes last: what is beside it is then never without one.
-void removeBoth(const fs::path& part, const fs::path& lock) {
+void removeWithCompanions(const fs::path& part) {
   for (const fs::path& file : filesIn(part.parent_path(), part.filename().string(), "")) unlink(file.c_str());
-  unlink(lock.c_str());
-}
-
-tl::unexpected<Error> cannotWrite(int error, const fs::path& folder) {
-  return fail(std::generic_category().message(error), folder.string(),
-              error == ENOSPC || error == EDQUOT ? "is the disk full?" : "check the folder's permissions");
 }
 
 }  // namespace
 
-LockedTemporary::LockedTemporary(fs::path part, fs::path lock, Descriptor held)
-    : part_(std::move(part)), lock_(std::move(lock)), held_(std::move(held)) {}
+LockedTemporary::LockedTemporary(fs::path part, FileLock lock)
+    : part_(std::move(part)), lock_(std::move(lock)) {}
 
 Result<LockedTemporary> LockedTemporary::create(const fs::path& folder, mode_t permissions) {
   static std::atomic<unsigned> made = 0;
   for (;;) {
-    const std::string name = fmt::format("{}{}-{}@{}", kPrefix, getpid(), made++, hostName());
-    const fs::path part = folder / fmt::format("{}{}", name, kPart);
-    const fs::path lock = folder / fmt::format("{}{}", name, kLock);
-    Descriptor held(open(lock.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-    if (!held.isOpen() && errno == EEXIST) continue;
-    if (!held.isOpen()) return cannotWrite(errno, folder);
-    if (!isHeld(held, true)) continue;  // a sweep of another process was quicker
+    const fs::path name = folder / fmt::format("{}{}-{}@{}", kPrefix, getpid(), made++, hostName());
+    fs::path part = name, lock = name;
+    part += kPart;
+    lock += kLock;
+    WEFT_TRY(std::optional<FileLock> held, FileLock::tryAcquire(lock));
+    if (!held) continue;         // a sweep is at a leftover of this name
+    removeWithCompanions(part);  // it may be one itself
     const Descriptor file(open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions));
-    if (file.isOpen()) return LockedTemporary(part, lock, std::move(held));
-    const int error = errno;
-    unlink(lock.c_str());
-    if (error != EEXIST) return cannotWrite(error, folder);
+    if (file.isOpen()) return LockedTemporary(std::move(part), std::move(*held));
+    return fail(std::generic_category().message(errno), folder.string(), "is the disk full?");
   }
 }
 
 void LockedTemporary::sweep(const fs::path& folder) {
-  for (const fs::path& lock : filesIn(folder, kPrefix, fmt::format("@{}{}", hostName(), kLock))) {
-    const Descriptor held(open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-    if (held.isOpen() && isHeld(held, false)) removeBoth(fs::path(lock).replace_extension(kPart), lock);
+  if (!knowsLocks(folder)) return;
+  for (fs::path& lock : filesIn(folder, kPrefix, fmt::format("@{}{}", hostName(), kLock))) {
+    const auto held = FileLock::tryAcquire(lock);  // which goes last: what is beside it is never without one
+    if (held && *held) removeWithCompanions(lock.replace_extension(kPart));
   }
 }
 
-void LockedTemporary::remove() const {
-  removeBoth(part_, lock_);
+void LockedTemporary::remove() {
+  removeWithCompanions(part_);
+  lock_.release();
 }
 
 }  // namespace weft

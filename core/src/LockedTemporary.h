@@ -4,14 +4,13 @@
 
 #include <filesystem>
 
-#include "Descriptor.h"
-#include "weft/core/Result.h"
+#include "weft/core/FileLock.h"
 
 namespace weft {
 
 /// A hidden file that belongs to this process while it lives: ".weft-PID-N@HOST.part", and beside
-/// it a .lock on which the process holds a lock. A process that dies without removing them loses
-/// the lock, so that a later sweep() knows them for leftovers.
+/// it a .lock that the process holds. A process that dies without removing them loses the lock, so
+/// that a later sweep() knows them for leftovers.
 ///
 /// The lock has a file of its own because some libraries replace what they write to by another
 /// file.
@@ -25,15 +24,14 @@ class LockedTemporary {
 
   /// The path to write to; libraries may put further files beside it whose names begin with it.
   const std::filesystem::path& path() const { return part_; }
-  /// Removes the file, if it is still there, and what libraries put beside it.
-  void remove() const;
+  /// Removes the file, if it is still there, what libraries put beside it, and the lock.
+  void remove();
 
  private:
-  LockedTemporary(std::filesystem::path part, std::filesystem::path lock, Descriptor held);
+  LockedTemporary(std::filesystem::path part, FileLock lock);
 
   std::filesystem::path part_;
-  std::filesystem::path lock_;
-  Descriptor held_;
+  FileLock lock_;
 };
 
 }  // namespace weft

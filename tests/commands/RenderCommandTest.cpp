@@ -310,6 +310,26 @@ TEST_F(RenderCommand, APictureTooLargeForOpenGLIsNamedBySize) {
   expectBadInput(run, "--size 8192x8192: with 2 x 2 samples a pixel, ");
 }
 
+TEST_F(RenderCommand, FilesOfTheSceneAreNotReplaced) {
+  const std::string textured = R"({"name":"base","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+                               R"("textures":[{"source":0}],"images":[{"uri":"white%20paint.png"})";
+  const std::string scene = write("scene.gltf", test::planeGltf(textured)).string();
+  const std::filesystem::path paint = folder / "white paint.png";
+  Image white(1, 1, 3);
+  white.bytes = {255, 255, 255};
+  test::requireDone(writePng(paint, white));
+  for (const std::vector<std::string>& outputs :
+       {std::vector<std::string>{"-o", paint}, {"-o", output, "--json", paint}, {"-o", scene}}) {
+    std::vector<std::string> arguments{scene, "--size", "4"};
+    arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+    const ProgramRun run = test::runProgram("weft-render", arguments);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(run.err, HasSubstr("the output would replace an input"));
+  }
+  EXPECT_EQ(test::valueOf(readImage(paint)).bytes, white.bytes);
+  expectNoOutput();
+}
+
 TEST_F(RenderCommand, QuietKeepsWarnings) {
   const std::string scene =
       write("scene.gltf",

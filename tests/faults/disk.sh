@@ -37,7 +37,8 @@ fill() {
 isRoot || echo "full disks are left out: only root mounts them"
 fill report.json 1 1 weft-info "$work/weave.zip" --json "$disk/report.json"
 fill field.rf.exr 16 2 "${fit[@]}" -o "$disk/field.rf.exr"
-fill page.html 8 1 weft-eval "$work/weave.rf.exr" --against "$work/weave.zip" --report "$disk/page.html" --quiet
+fill page.html 8 1 \
+  weft-eval "$work/weave.rf.exr" --against "$work/weave.zip" --report "$disk/page.html" --quiet
 fill image.exr 2 1 weft-eval "$work/weave.rf.exr" --image 30 0 30 90 -o "$disk/image.exr"
 fill tiles.zip 5500 500 weft-bake --pattern tiles --size 2 --samples 1 -o "$disk/tiles.zip" --quiet
 fill cloth.png 10 2 weft-render shape:cloth --size 200x200 -o "$disk/cloth.png"

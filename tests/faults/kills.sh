@@ -45,9 +45,9 @@ killFits() {
 killLongFits() {
   local i rows
   for ((i = 0; i < $2; ++i)); do
-    rows=$(ls "$output.parts" 2>/dev/null)
+    rows=$(compgen -G "$output.parts/*.rows")
     "${longFit[@]}" -o "$output" --threads "$1" --resume >"$work/said" 2>&1 &
-    while kill -0 $! 2>/dev/null && [[ $(ls "$output.parts" 2>/dev/null) = "$rows" ]]; do sleep 0.05; done
+    while kill -0 $! 2>/dev/null && [[ $(compgen -G "$output.parts/*.rows") = "$rows" ]]; do sleep 0.05; done
     sleep "$(below 300)"
     killNow $!
     check "kill $i of $1 threads with rows: output" wholeOrAbsent "$output" "$work/large.rf.exr"

@@ -4,7 +4,8 @@
 crowded() {
   local threads=$1
   shift
-  setpriv --reuid 65534 --clear-groups prlimit --nproc="$threads" env XDG_CACHE_HOME="$crowd" "$@" >"$work/said" 2>&1
+  setpriv --reuid 65534 --clear-groups prlimit --nproc="$threads" \
+    env XDG_CACHE_HOME="$crowd" "$@" >"$work/said" 2>&1
 }
 
 if isRoot; then
@@ -25,7 +26,8 @@ if isRoot; then
 
   for size in 4 500 1400 3000; do
     mount -t tmpfs -o "size=${size}k" weft-faults "$disk"
-    XDG_CACHE_HOME=$disk weft-render shape:cloth --env sky --size 40x30 -o "$work/cloth.png" >"$work/said" 2>&1
+    XDG_CACHE_HOME=$disk \
+      weft-render shape:cloth --env sky --size 40x30 -o "$work/cloth.png" >"$work/said" 2>&1
     code=$?
     check "caches on a disk of $size KiB: exit code $code" [ $code = 0 ]
     umount "$disk"

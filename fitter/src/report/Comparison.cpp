@@ -39,8 +39,9 @@ Result<ComparedModel> fitModel(const RawBtf& btf, FitOptions options, const Mode
   const std::filesystem::path file = folder / fileOf(fit.field.model().description(), type);
   WEFT_TRY_VOID(writeReflectanceField(fit.field, file));
   const std::uint64_t gpu = gpuBytes(fit.field);
-  return ComparedModel{label, file.filename().string(), std::move(fit), std::filesystem::file_size(file), gpu,
-                       0.0};
+  std::error_code isNoFile;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, isNoFile);
+  return ComparedModel{label, file.filename().string(), std::move(fit), isNoFile ? 0 : bytes, gpu, 0.0};
 }
 
 std::vector<std::string> epsCells(const FitErrors& errors) {

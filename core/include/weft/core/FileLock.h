@@ -20,6 +20,9 @@ class FileLock {
   FileLock& operator=(FileLock&&) = delete;
   ~FileLock();
 
+  /// Removes the file and lets it go, as the end of its owner does.
+  void release();
+
  private:
   FileLock(std::filesystem::path file, int descriptor);
 
