@@ -10,6 +10,7 @@
 #include <glm/ext/vector_double2.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
 
 #include "weft/core/Contract.h"
 #include "weft/scenegraph/Geometry.h"
@@ -51,12 +52,26 @@ double distanceToMesh(const Mesh& mesh, const glm::dmat4& fromPoint) {
   return least;
 }
 
-/// Shows a function the vertices that are not left over, each once.
+/// Whether what starts at an index can be seen: a triangle that collapsed has no area.
+bool isSeen(const Mesh& mesh, std::size_t first) {
+  if (mesh.topology != Topology::Triangles) return true;
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.positions[mesh.indices[first + k]];
+  return glm::cross(corners[1] - corners[0], corners[2] - corners[0]) != glm::dvec3(0.0);
+}
+
+/// Shows a function the vertices of all that can be seen, each once.
 template <class See>
 void forEachUsedVertex(const Mesh& mesh, See see) {
   std::vector<bool> used(mesh.positions.size());
-  for (const std::uint32_t index : mesh.indices)
-    if (index < used.size()) used[index] = true;
+  const std::size_t count = verticesPer(mesh.topology);
+  for (std::size_t i = 0; i + count <= mesh.indices.size(); i += count) {
+    const std::span corners = std::span(mesh.indices).subspan(i, count);
+    // What is no mesh is told when it is drawn.
+    const bool exist = std::ranges::all_of(corners, [&](std::uint32_t k) { return k < used.size(); });
+    if (!exist || !isSeen(mesh, i)) continue;
+    for (const std::uint32_t corner : corners) used[corner] = true;
+  }
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) see(glm::dvec3(mesh.positions[i]));
 }
