@@ -200,6 +200,21 @@ TEST_F(GltfMaterialsTest, TexturesOfSpecularMultiplyItsFactors) {
 // ---- Images
 // -----------------------------------------------------------------------------------------------
 
+TEST_F(GltfMaterialsTest, TexturesThatLookTheSameAreOne) {
+  writeTexture({1, 2, 3}, {4, 5, 6});
+  file["images"] = Json::parse(R"([{"uri":"a.png"},{"uri":"./a.png"}])");
+  file["samplers"] = Json::parse(R"([{"magFilter":9728},{"magFilter":9729}])");
+  file["textures"] =
+      Json::parse(R"([{"source":0,"sampler":0},{"source":1,"sampler":0},{"source":0,"sampler":1}])");
+  const PBROptions read = optionsOf(loaded(
+      R"({"pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}},"normalTexture":{"index":1},)"
+      R"("occlusionTexture":{"index":2},"emissiveTexture":{"index":0}})"));
+  ASSERT_TRUE(read.normalTexture.image);
+  EXPECT_EQ(read.metallicRoughnessTexture.image, read.normalTexture.image);
+  EXPECT_NE(read.occlusionTexture.image, read.normalTexture.image) << "another filter";
+  EXPECT_NE(read.emissionTexture.image, read.normalTexture.image) << "colours";
+}
+
 TEST_F(GltfMaterialsTest, ATextureInAFormatThatWeftDoesNotReadNamesItsExtension) {
   file["textures"][0] = Json::parse(R"({"extensions":{"KHR_texture_basisu":{"source":0}}})");
   EXPECT_THAT(loaded(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})").warnings,

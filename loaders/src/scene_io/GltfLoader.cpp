@@ -13,11 +13,13 @@
 #include <utility>
 
 #include "GltfAccessor.h"
+#include "GltfDraco.h"
 #include "GltfFile.h"
 #include "GltfInstances.h"
 #include "GltfLights.h"
 #include "GltfMaterials.h"
 #include "GltfMesh.h"
+#include "GltfMeshopt.h"
 #include "GltfPose.h"
 #include "weft/core/PrintableText.h"
 #include "weft/scenegraph/Geometry.h"
@@ -124,9 +126,11 @@ class SceneReader {
 
   void warnOfTheFile() {
     scene_.warnings = file_.warnings;
-    for (const std::string& extension : file_.model.extensionsUsed)
-      if (!isKnownExtension(extension) && !options_.extensions.contains(extension))
+    for (const std::string& extension : file_.model.extensionsUsed) {
+      const bool isPacking = extension == kDracoExtension || extension == kMeshoptExtension;  // shown anyway
+      if (!isPacking && !isKnownExtension(extension) && !options_.extensions.contains(extension))
         warn("what " + extension + " says is not shown");
+    }
     if (!file_.model.animations.empty() && !options_.time) warn("animations stand still, no time is given");
   }
 

@@ -27,6 +27,12 @@ TextureOptions optionsOf(const tinygltf::Sampler& sampler) {
   return options;
 }
 
+/// Equal for textures that look the same.
+std::string keyOf(const void* pixels, const TextureOptions& options) {
+  return fmt::format("{} {} {} {} {} {}", pixels, int(options.filter), int(*options.magnification),
+                     int(options.wrap), int(*options.wrapV), options.srgb);
+}
+
 /// Two channels, the second of which is the roughness.
 Image roughnessFrom(const Image& image, float factor) {
   Image roughness(image.width, image.height, 2);
@@ -58,12 +64,16 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool sr
   if (const auto found = chunks_.find({index, srgb}); found != chunks_.end()) return found->second;
   WEFT_TRY(Source source, sourceOf(index, use));
   source.options.srgb = srgb;
-  std::shared_ptr<const TextureChunk> chunk;
-  if (source.pixels.wide && !srgb)
+  const bool isWide = source.pixels.wide && !srgb;
+  const void* pixels = source.pixels.image.get();
+  if (isWide) pixels = source.pixels.wide.get();
+  std::shared_ptr<const TextureChunk>& chunk = shared_[keyOf(pixels, source.options)];
+  if (chunk) return chunks_[{index, srgb}] = chunk;
+  if (isWide)
     chunk = std::make_shared<const TextureChunk>(std::move(source.pixels.wide), source.options);
   else if (source.pixels.image)
     chunk = std::make_shared<const TextureChunk>(std::move(source.pixels.image), source.options);
-  return chunks_[{index, srgb}] = std::move(chunk);
+  return chunks_[{index, srgb}] = chunk;
 }
 
 Result<std::shared_ptr<const TextureChunk>> GltfTextures::roughnessOf(int index, float factor,

@@ -50,6 +50,7 @@ class GltfTextures {
   std::map<int, Pixels> images_;
   std::map<std::string, Pixels> decoded_;  ///< by Origin::key
   std::map<std::pair<int, bool>, std::shared_ptr<const TextureChunk>> chunks_;
+  std::map<std::string, std::shared_ptr<const TextureChunk>> shared_;  ///< by what they look like
   std::map<std::pair<int, float>, std::shared_ptr<const TextureChunk>> roughness_;
   std::size_t decodedBytes_ = 0;
   std::size_t convertedBytes_ = 0;
