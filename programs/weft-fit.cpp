@@ -9,6 +9,7 @@
 #include "MeasurementInput.h"
 #include "ModelArguments.h"
 #include "weft/evaluation/FieldEvaluation.h"
+#include "weft/fitter/DefaultModel.h"
 #include "weft/fitter/FieldFit.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::filesystem::path input;
   std::filesystem::path output;
+  std::string model;  // empty: defaultModel()
   std::string precision = "half";
   std::string cosine;
   std::string space;
@@ -50,9 +52,10 @@ void addOptions(Tool& tool, Arguments& a) {
   app.add_option("INPUT", a.input, kMeasurementHelp)->required();
   addMeasurementOptions(app, a.measurement);
   tool.addOutput("-o", a.output, "the .rf.exr to write")->required();
-  app.add_option("--model", a.fit.model.name, a.modelOptions.helpOfNames("what to fit:"))
-      ->check(CLI::IsMember(a.modelOptions.registry().names()))
-      ->capture_default_str();
+  app.add_option(
+         "--model", a.model,
+         a.modelOptions.helpOfNames("what to fit [rfnl; of one view what suits its number of lights]:"))
+      ->check(CLI::IsMember(a.modelOptions.registry().names()));
   a.modelOptions.addTo(app);
   app.add_option("--cosine", a.cosine,
                  "out: the model is multiplied by n.l when it is shaded; in: it contains n.l as the data do "
@@ -91,10 +94,20 @@ std::filesystem::path partsOf(const std::filesystem::path& output) {
   return parts += ".parts";
 }
 
+// What to fit, and why where that was not asked for.
+DefaultModel modelFor(const Arguments& a, const BtfDescription& measured) {
+  if (!a.model.empty()) return {a.model, ""};
+  DefaultModel model = defaultModel(measured);
+  const bool hasOptions = a.fit.models.create({model.name, a.modelOptions.given()}).has_value();
+  return hasOptions ? model : DefaultModel{a.fit.model.name, "the options given"};
+}
+
 FitOptions fitOptions(const Tool& tool, const Arguments& a, const ModelType& type,
                       const ProcessGroup& group) {
   FitOptions options = a.fit;
-  const std::string space = !a.space.empty() ? a.space : type.fitsStoredValues ? "stored" : "linear";
+  options.model.name = type.name;
+  const bool asStored = type.fitsStoredValues && a.cosine != "out";
+  const std::string space = !a.space.empty() ? a.space : asStored ? "stored" : "linear";
   const std::string cosine = !a.cosine.empty() ? a.cosine : space == "stored" ? "in" : "out";
   options.model.options = a.modelOptions.given();
   options.cosineInModel = cosine == "in";
@@ -137,14 +150,15 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
     return tool.badUsage("the output must end in .rf.exr: " + arguments.output.string());
   if (arguments.space == "stored" && arguments.cosine == "out")
     return tool.badUsage("--space stored fits the data as they are: it needs --cosine in");
-  WEFT_TRY(const ModelType type, arguments.fit.models.find(arguments.fit.model.name));
+  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
+  const BtfDescription& measured = source->description();
+  const DefaultModel chosen = modelFor(arguments, measured);
+  WEFT_TRY(const ModelType type, arguments.fit.models.find(chosen.name));
   const FitOptions options = fitOptions(tool, arguments, type, group);
   const auto model = options.models.create(options.model);
   if (!model) return tool.badUsage(model.error().message());
   if (arguments.cosine == "out" && (*model)->containsCosine())
     return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");
-  WEFT_TRY(const std::unique_ptr<BtfSource> source, openBtf(arguments.input, arguments.measurement));
-  const BtfDescription& measured = source->description();
   if (group.rank() == 0) tellWarnings(tool, arguments.input, measured);
   const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
                                                 static_cast<std::size_t>(options.crop->height)
@@ -176,6 +190,8 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
     WEFT_TRY_VOID(
         writeFieldReport(result.field, {result.errors, result.heldOut, result.texels, {}}, arguments.report));
 
+  if (!chosen.reason.empty())
+    tool.print(fmt::format("model {}, because of {} (--model takes another)\n", chosen.name, chosen.reason));
   tool.print(fmt::format("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(),
                          result.field.width(), result.field.height(), measured.views.size(),
                          measured.lights.size()));

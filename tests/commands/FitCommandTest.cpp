@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -7,9 +8,11 @@
 
 #include "ClothZip.h"
 #include "ProgramRun.h"
+#include "TestImages.h"
 #include "TestSupport.h"
 #include "weft/core/FileLock.h"
 #include "weft/fitter/FieldFit.h"
+#include "weft/io/ImageFile.h"
 
 namespace weft {
 namespace {
@@ -63,6 +66,31 @@ TEST(FitCommand, FitsAMeasurementThatInfoThenDescribes) {
     EXPECT_EQ(info.at("fit").at("epsilon"), fit.at("epsilon"));
     EXPECT_EQ(info.at("bytes").at("gpu"), fit.at("bytes").at("gpu"));
   }
+}
+
+TEST(FitCommand, TakesTheModelThatSuitsTheLightsOfOneView) {
+  const fs::path folder = test::testFolder();
+  const fs::path field = folder / "coin.rf.exr";
+  std::string list = "9\n";
+  for (int i = 0; i < 9; ++i) {
+    const std::string name = std::to_string(i) + ".png";
+    test::requireDone(writePng(folder / name, test::imageOf(3, 2, [&](int, int, int) { return 40 + 20 * i; })));
+    list += fmt::format("{} {} {} {}\n", name, 0.4 * (i % 3 - 1), 0.4 * (i / 3 - 1), 0.7);
+  }
+  std::ofstream(folder / "coin.lp") << list;
+  const auto modelOf = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {folder / "coin.lp", "-o", field, "--json", folder / "fit.json"});
+    const ProgramRun run = runProgram("weft-fit", options);
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.out.starts_with("model "), options.front() != "--model") << run.out;
+    return json::parse(std::ifstream(folder / "fit.json")).at("model").get<std::string>();
+  };
+  EXPECT_EQ(modelOf({"--quiet"}), "rfp");
+  EXPECT_EQ(modelOf({"--color", "rgb"}), "rfp");
+  EXPECT_EQ(modelOf({"--lobes", "1"}), "rfnl");
+  EXPECT_EQ(modelOf({"--model", "ptm"}), "ptm");
+  EXPECT_THAT(runProgram("weft-fit", {clothZip(folder), "-o", field}).out,
+              testing::StartsWith("model rfnl, because of 81 views (--model takes another)\n"));
 }
 
 TEST(FitCommand, EqualInputGivesEqualBytesOnAnyNumberOfThreads) {

@@ -97,21 +97,18 @@ bool isLightList(std::string_view path) {
 }
 
 Result<std::optional<int>> findLightList(const FileCollection& files, const std::string& where) {
-  const std::vector<std::string>& names = files.names();
-  std::optional<int> found;
-  bool isOnly = true;
-  std::string other;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!isLightList(names[i])) continue;
-    const int deeper = found ? depthOf(names[i]) - depthOf(names[static_cast<std::size_t>(*found)]) : -1;
-    if (deeper < 0) found = static_cast<int>(i);
-    if (deeper <= 0) isOnly = deeper < 0;
-    if (deeper == 0) other = names[i];
+  const auto name = [&](int i) -> const std::string& { return files.names()[static_cast<std::size_t>(i)]; };
+  std::vector<int> lists;  // all in as many folders as the first
+  for (int i = 0; i < static_cast<int>(files.names().size()); ++i) {
+    if (!isLightList(name(i))) continue;
+    if (!lists.empty() && depthOf(name(i)) > depthOf(name(lists.front()))) continue;
+    if (!lists.empty() && depthOf(name(i)) < depthOf(name(lists.front()))) lists.clear();
+    lists.push_back(i);
   }
-  if (isOnly) return found;
-  return fail(fmt::format("there is more than one light list: '{}', '{}'",
-                          names[static_cast<std::size_t>(*found)], other),
-              where, "give the one that is meant");
+  if (lists.size() > 1)
+    return fail(fmt::format("there is more than one light list: '{}', '{}'", name(lists[0]), name(lists[1])),
+                where, "give the one that is meant");
+  return lists.empty() ? std::optional<int>() : lists.front();
 }
 
 Result<std::unique_ptr<BtfSource>> openLightList(const fs::path& path, std::string name,

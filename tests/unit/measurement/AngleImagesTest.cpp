@@ -24,6 +24,38 @@ BtfDescription descriptionOf(const std::vector<std::string>& names) {
   return valueOf(openBtf(folder))->description();
 }
 
+TEST(AngleImages, UnderstandsTheNamesInUse) {
+  const Image image(2, 2, 3);
+  for (const std::string name :
+       {"00008 tl015 pl060 tv030 pv090", "tl015_pl060_tv030_pv090", "img_tv30_pv90_tl15_pl60",
+        "tv30.0_pv090.00_tl15.0_pl60", "tl15-pl60-tv30-pv90-final", "tl015 pl420 tv030 pv450"}) {
+    const fs::path folder = test::testFolder() / "set";
+    fs::create_directories(folder);
+    requireDone(writePng(folder / (name + ".PNG"), image));
+    const BtfDescription d = valueOf(openBtf(folder))->description();
+    EXPECT_EQ(d.lights, std::vector{directionFromDegrees(15, 60)}) << name;
+    EXPECT_EQ(d.views, std::vector{directionFromDegrees(30, 90)}) << name;
+  }
+}
+
+TEST(AngleImages, IgnoresNamesWithoutAllAnglesOrBelowTheHorizon) {
+  for (const std::string name :
+       {"tl015_pl060_tv030.png", "tl015_pl060_tv095_pv000.png", "atl015_pl0_tv0_pv0.png",
+        "tl015_pl060_tv030_pv090.txt", "tl_pl_tv_pv.png"}) {
+    const fs::path folder = test::testFolder();
+    test::writeBytes(folder / name, {0});
+    EXPECT_THAT(errorOfOpening(folder), HasSubstr("no images named by their angles")) << name;
+  }
+}
+
+TEST(AngleImages, TakesAzimuthsAtThePoleAsOne) {
+  const fs::path folder = test::testFolder();
+  const Image image(2, 2, 3);
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", image));
+  requireDone(writePng(folder / "tl000_pl000_tv000_pv090.png", image));
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr("the same light and view as"));
+}
+
 TEST(AngleImages, UnderstandsSignsAndDecimals) {
   for (const std::string name : {"tl015_pl-60_tv030_pv-90.png", "tl15.00_pl-60.00_tv30.00_pv270.00.png",
                                  "tv30.0_pv-90.0_tl15.0_pl-60.0.png", "00007 tl+015 pl+300 tv+030 pv+270.png",

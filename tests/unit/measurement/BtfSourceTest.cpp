@@ -173,38 +173,6 @@ TEST(BtfSource, MayBeReadFromManyThreads) {
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST(BtfSource, UnderstandsTheNamesInUse) {
-  const Image image(2, 2, 3);
-  for (const std::string name :
-       {"00008 tl015 pl060 tv030 pv090", "tl015_pl060_tv030_pv090", "img_tv30_pv90_tl15_pl60",
-        "tv30.0_pv090.00_tl15.0_pl60", "tl15-pl60-tv30-pv90-final", "tl015 pl420 tv030 pv450"}) {
-    const fs::path folder = test::testFolder() / "set";
-    fs::create_directories(folder);
-    requireDone(writePng(folder / (name + ".PNG"), image));
-    const BtfDescription d = valueOf(openBtf(folder))->description();
-    EXPECT_EQ(d.lights, std::vector{directionFromDegrees(15, 60)}) << name;
-    EXPECT_EQ(d.views, std::vector{directionFromDegrees(30, 90)}) << name;
-  }
-}
-
-TEST(BtfSource, IgnoresNamesWithoutAllAnglesOrBelowTheHorizon) {
-  for (const std::string name :
-       {"tl015_pl060_tv030.png", "tl015_pl060_tv095_pv000.png", "atl015_pl0_tv0_pv0.png",
-        "tl015_pl060_tv030_pv090.txt", "tl_pl_tv_pv.png"}) {
-    const fs::path folder = test::testFolder();
-    test::writeBytes(folder / name, {0});
-    EXPECT_THAT(errorOfOpening(folder), HasSubstr("no images named by their angles")) << name;
-  }
-}
-
-TEST(BtfSource, TakesAzimuthsAtThePoleAsOne) {
-  const fs::path folder = test::testFolder();
-  const Image image(2, 2, 3);
-  requireDone(writePng(folder / "tl000_pl000_tv000_pv000.png", image));
-  requireDone(writePng(folder / "tl000_pl000_tv000_pv090.png", image));
-  EXPECT_THAT(errorOfOpening(folder), HasSubstr("the same light and view as"));
-}
-
 TEST(BtfSource, DecodesJpegsWithGamma22) {
   const fs::path folder = test::testFolder() / "jpeg";
   const Image image = test::imageOf(16, 16, [](int, int, int c) { return 60 + 70 * c; });
@@ -292,21 +260,6 @@ TEST(BtfSource, TurnsPhotographsAsTheirExifSays) {
     for (const int x : {2, 13})
       EXPECT_NEAR(test::linearSample(rows, x, y, 0).x, test::linearSample(rows, x, y, 1).x, 0.02f)
           << x << ' ' << y;
-}
-
-TEST(BtfSource, RefusesWhatIsNotThere) {
-  EXPECT_THAT(errorOfOpening("/no/such/cloth.zip"), HasSubstr("/no/such/cloth.zip: no such file"));
-}
-
-TEST(BtfSource, RefusesAnEmptyFolder) {
-  const fs::path folder = test::testFolder();
-  EXPECT_THAT(errorOfOpening(folder), HasSubstr(folder.string() + ": there are no images"));
-}
-
-TEST(BtfSource, RefusesAFileThatIsNoZip) {
-  const fs::path file = test::testFolder() / "cloth.zip";
-  test::writeBytes(file, {'h', 'i'});
-  EXPECT_THAT(errorOfOpening(file), HasSubstr("cloth.zip: this is a text, not a measurement"));
 }
 
 TEST(BtfSource, RefusesAMissingPair) {

@@ -15,6 +15,21 @@ using test::writeImage;
 using test::writeList;
 using testing::HasSubstr;
 
+TEST(InputKind, RefusesWhatIsNotThere) {
+  EXPECT_THAT(errorOfOpening("/no/such/cloth.zip"), HasSubstr("/no/such/cloth.zip: no such file"));
+}
+
+TEST(InputKind, RefusesAnEmptyFolder) {
+  const fs::path folder = test::testFolder();
+  EXPECT_THAT(errorOfOpening(folder), HasSubstr(folder.string() + ": there are no images"));
+}
+
+TEST(InputKind, RefusesAFileThatIsNoZip) {
+  const fs::path file = test::testFolder() / "cloth.zip";
+  test::writeBytes(file, {'h', 'i'});
+  EXPECT_THAT(errorOfOpening(file), HasSubstr("cloth.zip: this is a text, not a measurement"));
+}
+
 TEST(InputKind, IsNamedByTheFirstBytes) {
   const fs::path folder = test::testFolder();
   const std::pair<std::string, std::string> cases[] = {
