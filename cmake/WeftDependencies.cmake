@@ -16,7 +16,8 @@ find_package(OpenEXR REQUIRED)
 find_package(libjpeg-turbo REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
-find_package(TinyGLTF REQUIRED)
+# Only the header: TinyGltf.cpp compiles it into a namespace of its own.
+find_path(WEFT_TINYGLTF_HEADERS tiny_gltf.h REQUIRED)
 # Without it, glTF files that are packed with it are refused.
 find_package(meshoptimizer QUIET)
 find_package(nlohmann_json REQUIRED)

@@ -9,7 +9,7 @@ packages=(
   libepoxy-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri # Mesa's EGL and software renderer
   libopenexr-dev libimath-dev libpng-dev libzip-dev libutf8proc-dev
   libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
-  libtinygltf-dev
+  libtinygltf-dev # its header alone
   libmeshoptimizer-dev # optional: glTF files that are packed
   libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
   libopenmpi-dev openmpi-bin # optional: fits of several processes

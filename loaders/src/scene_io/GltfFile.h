@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "GltfData.h"
+#include "TinyGltf.h"
 #include "weft/core/Result.h"
 
 namespace weft {

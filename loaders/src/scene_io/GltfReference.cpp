@@ -1,13 +1,13 @@
 #include "GltfReference.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <system_error>
 
+#include "TinyGltf.h"
 #include "weft/io/FileBytes.h"
 #include "weft/io/FileName.h"
 
