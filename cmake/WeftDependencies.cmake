@@ -18,7 +18,8 @@ find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 # Only the header: TinyGltf.cpp compiles it into a namespace of its own.
 find_path(WEFT_TINYGLTF_HEADERS tiny_gltf.h REQUIRED)
-# Without it, glTF files that are packed with it are refused.
+# Without these two, glTF files that are packed with them are refused.
+find_package(draco QUIET)
 find_package(meshoptimizer QUIET)
 find_package(nlohmann_json REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)

@@ -47,7 +47,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 libopengl-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "libopenexr-dev, libturbojpeg0-dev, libjpeg62-turbo-dev, libpng-dev, libzip-dev, \
-libutf8proc-dev, nlohmann-json3-dev, libtbb-dev, libmeshoptimizer-dev, libeigen3-dev, libembree-dev")
+libutf8proc-dev, nlohmann-json3-dev, libtbb-dev, libdraco-dev, libmeshoptimizer-dev, \
+libeigen3-dev, libembree-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Measured materials for real-time rendering: C++ libraries\n \
 Static libraries, headers and the CMake package weft. All components but core, shaders, chunks and \

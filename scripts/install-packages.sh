@@ -10,7 +10,7 @@ packages=(
   libopenexr-dev libimath-dev libpng-dev libzip-dev libutf8proc-dev
   libturbojpeg0-dev libjpeg62-turbo-dev # the latter for the former's CMake config
   libtinygltf-dev # its header alone
-  libmeshoptimizer-dev # optional: glTF files that are packed
+  libdraco-dev libmeshoptimizer-dev # optional: glTF files that are packed
   libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
   libopenmpi-dev openmpi-bin # optional: fits of several processes
   libgtest-dev libgmock-dev libbenchmark-dev

@@ -1,15 +1,19 @@
-// Meshes packed with meshoptimizer, which the tests pack themselves.
+// Meshes packed with Draco and meshoptimizer, which the tests pack themselves.
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <random>
 
 #include "GltfScenes.h"
 #include "weft/scenegraph/Mesh.h"
 
+#ifdef WEFT_DRACO
+#include <draco/compression/encode.h>
+#endif
 #ifdef WEFT_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
@@ -71,6 +75,162 @@ std::vector<std::array<std::array<float, 5>, 3>> trianglesOf(const std::vector<g
   EXPECT_EQ(trianglesOf(mesh.positions, mesh.texcoords, mesh.indices),
             trianglesOf(hills.positions, hills.texcoords, hills.indices));
 }
+
+/// The hills, there in Draco alone.
+Json dracoFile(const std::vector<std::uint8_t>& packed) {
+  test::GltfText text;
+  text.addView(packed);
+  text.addAccessor(R"("componentType":5126,"count":81,"type":"VEC3")");
+  text.addAccessor(R"("componentType":5126,"count":81,"type":"VEC2")");
+  text.addAccessor(R"("componentType":5123,"count":384,"type":"SCALAR")");
+  Json file = test::triangleGltf(text);
+  file["meshes"][0]["primitives"][0] = Json::parse(
+      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"mode":4,"extensions":{
+          "KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}}}})");
+  file["extensionsUsed"] = file["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  return file;
+}
+
+#ifdef WEFT_DRACO
+
+/// `bits` of each number; 0: as they are.
+std::vector<std::uint8_t> packedWithDraco(int method, int bits = 0) {
+  const Hills hills;
+  const auto count = static_cast<std::uint32_t>(hills.positions.size());
+  draco::Mesh mesh;
+  mesh.set_num_points(count);
+  const auto add = [&](draco::GeometryAttribute::Type type, const auto& values) {
+    draco::GeometryAttribute attribute;
+    attribute.Init(type, nullptr, static_cast<std::uint8_t>(values[0].length()), draco::DT_FLOAT32, false,
+                   static_cast<std::int64_t>(sizeof values[0]), 0);
+    const int id = mesh.AddAttribute(attribute, true, count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
+  };
+  add(draco::GeometryAttribute::POSITION, hills.positions);
+  add(draco::GeometryAttribute::TEX_COORD, hills.texcoords);
+  for (std::size_t i = 0; i < hills.indices.size(); i += 3)
+    mesh.AddFace({draco::PointIndex(hills.indices[i]), draco::PointIndex(hills.indices[i + 1]),
+                  draco::PointIndex(hills.indices[i + 2])});
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(method);
+  encoder.SetSpeedOptions(0, 0);  // texture coordinates follow the positions, where both are rounded
+  for (const auto type : {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::TEX_COORD})
+    if (bits > 0) encoder.SetAttributeQuantization(type, bits);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
+  return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+class GltfDraco : public testing::TestWithParam<int> {};
+
+TEST_P(GltfDraco, IsUnpacked) {
+  Json file = dracoFile(packedWithDraco(GetParam()));
+  const GltfScene scene = loadedGltf(file);
+  expectIsHills(*drawnIn(scene).at(0).mesh);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+
+  file.erase("extensionsRequired");
+  expectIsHills(*drawnIn(loadedGltf(file)).at(0).mesh);
+  file["meshes"][0]["primitives"][0].erase("indices");
+  expectIsHills(*drawnIn(loadedGltf(file)).at(0).mesh);
+}
+
+TEST_P(GltfDraco, EveryTruncationIsRefusedByItsName) {
+  const std::vector<std::uint8_t> packed = packedWithDraco(GetParam());
+  for (std::size_t size = 0; size < packed.size(); size += 7)
+    EXPECT_THAT(
+        failureOfGltf(dracoFile({packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size)})),
+        HasSubstr("KHR_draco_mesh_compression of mesh 0"))
+        << size;
+}
+
+TEST_P(GltfDraco, SurvivesDamage) {
+  const std::vector<std::uint8_t> packed = packedWithDraco(GetParam());
+  std::mt19937 random(5);
+  int refused = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::uint8_t> damaged = packed;
+    for (auto change = random() % 3; change < 3; ++change)
+      damaged[11 + random() % (damaged.size() - 11)] = static_cast<std::uint8_t>(random());
+    if (!loadGltf(test::writtenGltf(dracoFile(damaged).dump()))) ++refused;
+  }
+  EXPECT_GT(refused, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, GltfDraco,
+                         testing::Values(draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING));
+
+TEST(GltfDracoFile, WithOtherBytesForThoseWhoCannotUnpackShowsThese) {
+  Json file = dracoFile({1, 2, 3});
+  test::GltfText plain;
+  const Hills hills;
+  std::vector<float> positions, texcoords;
+  for (const glm::vec3 p : hills.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  for (const glm::vec2 t : hills.texcoords) texcoords.insert(texcoords.end(), {t.x, t.y});
+  plain.add(positions, "VEC3");
+  plain.add(texcoords, "VEC2");
+  plain.add(hills.indices, "SCALAR");
+  Json complete = test::triangleGltf(plain);
+  complete["meshes"] = file["meshes"];
+  expectIsHills(*drawnIn(loadedGltf(complete)).at(0).mesh);
+}
+
+TEST(GltfDracoFile, ThatClaimsMoreThanItsSizeIsRefusedBeforeMemoryIsTaken) {
+  const std::vector<std::uint8_t> header{'D', 'R', 'A', 'C', 'O', 2, 2, 1};
+  for (const std::uint8_t method : {std::uint8_t{0}, std::uint8_t{1}}) {
+    std::vector<std::uint8_t> bytes = header;
+    bytes.insert(bytes.end(), {method, 0, 0});
+    if (method == 1) bytes.push_back(0);
+    bytes.insert(bytes.end(), {0x8f, 0xff, 0xff, 0xff, 0x7f, 0x8f, 0xff, 0xff, 0xff, 0x7f, 0});
+    EXPECT_THAT(failureOfGltf(dracoFile(bytes)), AllOf(HasSubstr("MB"), HasSubstr("size")));
+  }
+}
+
+TEST(GltfDracoFile, OfManyAttributesIsRefusedBeforeMemoryIsTaken) {
+  std::vector<std::uint8_t> bytes = packedWithDraco(draco::MESH_SEQUENTIAL_ENCODING);
+  constexpr std::uint8_t kPosition[]{draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, 0};
+  const auto position = std::search(bytes.begin(), bytes.end(), std::begin(kPosition), std::end(kPosition));
+  ASSERT_NE(position, bytes.end());
+  bytes.erase(position - 1, bytes.end());  // their number, then each
+  bytes.insert(bytes.end(), {0x90, 0x03});
+  for (int i = 0; i < 400; ++i)
+    bytes.insert(bytes.end(), {draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 255, 0, 0});
+  bytes.resize(bytes.size() + 400);  // how they are packed
+  EXPECT_THAT(failureOfGltf(dracoFile(bytes)), AllOf(HasSubstr("MB"), HasSubstr("size")));
+}
+
+TEST(GltfDracoFile, WithABrokenNumberIsToldAtOnce) {
+  const std::vector<std::uint8_t> packed = packedWithDraco(draco::MESH_EDGEBREAKER_ENCODING, 11);
+  for (std::size_t i = 11; i < packed.size(); ++i) {
+    std::vector<std::uint8_t> damaged = packed;
+    damaged[i] = 127;
+    const auto start = std::chrono::steady_clock::now();
+    static_cast<void>(loadGltf(test::writtenGltf(dracoFile(damaged).dump())));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << i;
+  }
+}
+
+TEST(GltfDracoFile, WithoutAnAttributeThatItNamesIsRefused) {
+  Json file = dracoFile(packedWithDraco(draco::MESH_SEQUENTIAL_ENCODING));
+  auto& attributes =
+      file["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"];
+  attributes["TEXCOORD_0"] = 5;
+  EXPECT_THAT(failureOfGltf(file), HasSubstr("TEXCOORD_0"));
+  attributes["TEXCOORD_0"] = 0;
+  EXPECT_THAT(failureOfGltf(file), HasSubstr("components"));
+}
+
+#else
+
+TEST(GltfDracoFile, IsRefusedByItsName) {
+  Json file = dracoFile({1, 2, 3});
+  EXPECT_THAT(failureOfGltf(file), HasSubstr("KHR_draco_mesh_compression"));
+  file.erase("extensionsRequired");
+  EXPECT_THAT(failureOfGltf(file), HasSubstr("KHR_draco_mesh_compression of mesh 0 cannot be unpacked"));
+}
+
+#endif
 
 #ifdef WEFT_MESHOPTIMIZER
 

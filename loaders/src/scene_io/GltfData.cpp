@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "GltfDraco.h"
 #include "GltfMeshopt.h"
 
 namespace weft {
@@ -67,6 +68,7 @@ void collect(const Json& value, const std::string& place, std::vector<GltfData>&
 }  // namespace
 
 bool isKnownExtension(std::string_view name) {
+  if (name == kDracoExtension) return kUnpacksDraco;
   if (name == kMeshoptExtension) return kUnpacksMeshopt;
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) != kKnownExtensions.end();
 }

@@ -5,10 +5,11 @@
 namespace weft {
 
 constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+/// Whether this build has Draco.
+extern const bool kUnpacksDraco;
 
-/// Fails on a mesh that is there in Draco alone. Weft does not unpack it: Debian's library of Draco
-/// holds another version of tinygltf, whose functions would take the place of the one that reads
-/// our files.
-Result<void> refuseDraco(const GltfFile& file);
+/// Unpacks the meshes that are there in Draco alone: their accessors then are as others are. Fails
+/// on one that cannot be unpacked; without Draco, on any.
+Result<void> unpackDraco(GltfFile& file);
 
 }  // namespace weft

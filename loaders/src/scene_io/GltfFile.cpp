@@ -154,7 +154,7 @@ Result<GltfFile> readGltfFile(const std::filesystem::path& path, const GltfOptio
   WEFT_TRY_VOID(parseModel(std::move(root), file));
   file.memoryLimit = memoryLimitOf(file, bytes->size());
   WEFT_TRY_VOID(unpackMeshopt(file));
-  WEFT_TRY_VOID(refuseDraco(file));
+  WEFT_TRY_VOID(unpackDraco(file));
   return file;
 }
 

@@ -84,8 +84,8 @@ struct GltfScene {
 
 /// Reads the default scene of a glTF 2.0 file, .gltf or .glb: nodes, meshes of every kind of
 /// primitive (morphed and skinned as they stand at the time that the options name; instanced;
-/// packed with meshoptimizer, where this build has it), lights (KHR_lights_punctual), cameras,
-/// materials.
+/// packed with Draco or meshoptimizer, where this build has them), lights (KHR_lights_punctual),
+/// cameras, materials.
 ///
 /// A material with `WEFT_materials_btf` (`uri` of a .rf.exr beside the file, `scale`) becomes a
 /// BTFMaterial, any other a PBRMaterial (KHR_materials_emissive_strength, _ior, _specular,
