@@ -76,7 +76,8 @@ Result<LockedTemporary> LockedTemporary::create(const fs::path& folder, mode_t p
 void LockedTemporary::sweep(const fs::path& folder) {
   if (!knowsLocks(folder)) return;
   for (fs::path& lock : filesIn(folder, kPrefix, fmt::format("@{}{}", hostName(), kLock))) {
-    const auto held = FileLock::tryAcquire(lock);  // which goes last: what is beside it is never without one
+    // The lock goes last: what is beside it is never without one.
+    const auto held = FileLock::tryAcquire(lock);
     if (held && *held) removeWithCompanions(lock.replace_extension(kPart));
   }
 }

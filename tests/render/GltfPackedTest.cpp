@@ -114,7 +114,8 @@ std::vector<std::uint8_t> packedWithDraco(int method, int bits = 0) {
                   draco::PointIndex(hills.indices[i + 2])});
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method);
-  encoder.SetSpeedOptions(0, 0);  // texture coordinates follow the positions, where both are rounded
+  // Texture coordinates follow the positions, where both are rounded.
+  encoder.SetSpeedOptions(0, 0);
   for (const auto type : {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::TEX_COORD})
     if (bits > 0) encoder.SetAttributeQuantization(type, bits);
   draco::EncoderBuffer buffer;

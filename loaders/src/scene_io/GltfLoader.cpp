@@ -127,7 +127,8 @@ class SceneReader {
   void warnOfTheFile() {
     scene_.warnings = file_.warnings;
     for (const std::string& extension : file_.model.extensionsUsed) {
-      const bool isPacking = extension == kDracoExtension || extension == kMeshoptExtension;  // shown anyway
+      // What is packed is unpacked, or refused; or the file has it unpacked, too.
+      const bool isPacking = extension == kDracoExtension || extension == kMeshoptExtension;
       if (!isPacking && !isKnownExtension(extension) && !options_.extensions.contains(extension))
         warn("what " + extension + " says is not shown");
     }

@@ -14,8 +14,8 @@ struct DefaultModel {
 
 /// What a measurement is fitted with where no model is asked for: `rfnl`, but for one view with
 /// fewer than 16 lights `rfp`, with fewer than 8 `ptm`, which have the smallest errors on lights
-/// that were not fitted (docs/fitting.md); `bump` where the lights do not determine those, as on one
-/// ring.
+/// that were not fitted (docs/fitting.md); `bump` where the lights do not determine those, as on
+/// one ring.
 DefaultModel defaultModel(const BtfDescription& measured);
 
 }  // namespace weft

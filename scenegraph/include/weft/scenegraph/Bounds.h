@@ -21,8 +21,8 @@ struct Bounds {
   void include(glm::dvec3 point);
 };
 
-/// Around the vertices that the mesh's triangles, lines or points have; triangles without an area do not
-/// count.
+/// Around the vertices that the mesh's triangles, lines or points have; triangles without an area
+/// do not count.
 Bounds boundsOf(const Mesh& mesh);
 
 /// Around what can be seen of the geometries below `root`, in the coordinates in which `root`
