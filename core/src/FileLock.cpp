@@ -41,8 +41,9 @@ Result<std::optional<FileLock>> FileLock::tryAcquire(const std::filesystem::path
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (descriptor < 0) {
       const int error = errno;
-      return fail("the lock cannot be made: " + std::generic_category().message(error), file.string(),
-                  error == ENOSPC || error == EDQUOT ? "is the disk full?" : "check the folder's permissions");
+      return fail(
+          "the lock cannot be made: " + std::generic_category().message(error), file.string(),
+          error == ENOSPC || error == EDQUOT ? "is the disk full?" : "check the folder's permissions");
     }
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor);

@@ -74,7 +74,8 @@ TEST(FitCommand, TakesTheModelThatSuitsTheLightsOfOneView) {
   std::string list = "9\n";
   for (int i = 0; i < 9; ++i) {
     const std::string name = std::to_string(i) + ".png";
-    test::requireDone(writePng(folder / name, test::imageOf(3, 2, [&](int, int, int) { return 40 + 20 * i; })));
+    test::requireDone(
+        writePng(folder / name, test::imageOf(3, 2, [&](int, int, int) { return 40 + 20 * i; })));
     list += fmt::format("{} {} {} {}\n", name, 0.4 * (i % 3 - 1), 0.4 * (i / 3 - 1), 0.7);
   }
   std::ofstream(folder / "coin.lp") << list;
