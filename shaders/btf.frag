@@ -16,6 +16,7 @@ flat in float handedness;
 layout(location = 0) out vec4 color;
 
 #include "where.glsl"
+#include "layer_lookup.glsl"
 #include "fetch.glsl"
 #include "model.glsl"
 #include "shade.glsl"
@@ -25,11 +26,10 @@ void main() {
   EnvironmentFrame environment = environmentFrame(frame);
   vec3 view = toFrame(frame, toEye(position));
   ivec2 size = fieldSize();
-  vec2 place = fract(texcoord * textureScale) * vec2(size);
   vec3 radiance = vec3(0.0);
-  for (int i = 0; i < texelCount; ++i) {
-    TexelShare at = texelAt(i, place, size);
-    radiance += at.share * radianceOf(at.texel, view, frame, environment);
+  for (int i = 0; i < placeCount; ++i) {
+    PlaceShare at = placeAt(i, texcoord * textureScale, size);
+    radiance += at.share * radianceOf(at.place, view, frame, environment);
   }
   color = shown(vec4(tint * radiance, 1.0));
 }

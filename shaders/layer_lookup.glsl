@@ -13,7 +13,7 @@ struct LayerWeights {
 
 // `v`: unit, tangent frame; below the horizon it counts as on it.
 LayerWeights findLayers(vec3 v) {
-#if LAYER_TEXELS == 0
+#ifndef HAS_LAYERS
   return LayerWeights(ivec3(0), vec3(1.0, 0.0, 0.0));
 #endif
   v = normalize(vec3(v.xy, max(v.z, 0.0)) + vec3(0.0, 0.0, 1e-12));

@@ -1,5 +1,4 @@
 // Shading a field whose layers are measured lights: each light has its own layers.
-#include "layer_lookup.glsl"
 #include "field_value.glsl"
 #include "incoming.glsl"
 
@@ -8,7 +7,7 @@ vec3 variedDirection(vec3 light, vec3 view) {
 }
 
 // The radiance towards the eye that one texel would give here.
-vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame, EnvironmentFrame environment) {
+vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame environment) {
   Texel texel = fetchTexel(place);
   vec3 seenFrom = notBelow(view, lowestViewZ);
   vec3 radiance = vec3(0.0);

@@ -1,5 +1,4 @@
 // Shading a field whose layers are measured views: the same layers for all lights.
-#include "layer_lookup.glsl"
 #include "field_value.glsl"
 #include "incoming.glsl"
 
@@ -8,10 +7,11 @@ vec3 variedDirection(vec3 light, vec3 view) {
 }
 
 // The radiance towards the eye that one texel would give here.
-vec3 radianceOf(ivec2 place, vec3 view, TangentFrame frame, EnvironmentFrame environment) {
-  Texel texel = fetchTexel(place);
+vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame environment) {
   vec3 seenFrom = notBelow(view, lowestViewZ);
   LayerWeights layers = findLayers(view);
+  place = seenAt(place, layers, view);
+  Texel texel = fetchTexel(place);
   vec3 radiance = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     if (layers.weight[k] == 0.0) continue;

@@ -22,8 +22,12 @@ vec3 nodeAt(int index, EnvironmentFrame frame, out vec3 light) {
 }
 
 // What one layer shows; each colour channel of a fit in RGB has lobes of its own.
-vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view,
+vec3 environmentValue(Texel texel, Layer layer, Place place, int index, vec3 view,
                       EnvironmentFrame frame) {
+#ifdef MODEL_GIVES_COLOR
+  return environmentIntensity.w * environmentIntensity.rgb *
+         colorUnderEnvironment(texel, layer, frame);
+#else
 #ifdef ENVIRONMENT_LAYERS
   layer = fetchLayerFrom(preparedParameters, place, index);
 #endif
@@ -32,6 +36,7 @@ vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 vie
     value[c] = underEnvironment(texel.channels[c], layer.channels[c], view, frame)[c];
   return environmentIntensity.w * environmentIntensity.rgb * value *
          texel.channels[0].texels[0].rgb;
+#endif
 }
 
 #else

@@ -23,7 +23,7 @@ vec3 nodeAt(int index, EnvironmentFrame frame, out vec3 light) {
   return environmentIntensity.w * environmentIntensity.rgb * (node.w / light.z) * average;
 }
 
-vec3 environmentValue(Texel texel, Layer layer, ivec2 place, int index, vec3 view,
+vec3 environmentValue(Texel texel, Layer layer, Place place, int index, vec3 view,
                       EnvironmentFrame frame) {
   return vec3(0.0);
 }

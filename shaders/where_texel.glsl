@@ -1,15 +1,19 @@
 // Where a field is looked up, the nearest texel. A *where* stage says how many texels are shaded
 // and which ones.
 
-const int texelCount = 1;
+const int placeCount = 1;
 
-struct TexelShare {
+struct Place {
   ivec2 texel;
+};
+
+struct PlaceShare {
+  Place place;
   float share;  // of the result
 };
 
-// `place`: in texels, 0..size.
-TexelShare texelAt(int index, vec2 place, ivec2 size) {
+// `texcoord`: 1 is the whole field, which repeats.
+PlaceShare placeAt(int index, vec2 texcoord, ivec2 size) {
   // fract() of a tiny negative number rounds to 1.
-  return TexelShare(min(ivec2(place), size - 1), 1.0);
+  return PlaceShare(Place(min(ivec2(fract(texcoord) * vec2(size)), size - 1)), 1.0);
 }

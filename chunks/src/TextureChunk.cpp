@@ -38,6 +38,7 @@ struct Texels {
   int height = 0;
   int layers = 0;
   std::vector<const void*> levels;
+  bool hasLevels = false;  ///< all that there are to be
   /// what `levels` points to where the image had to be converted
   std::vector<std::uint8_t> expanded;
 };
@@ -80,11 +81,12 @@ Texels texelsOf(const FloatImage& image, const TextureOptions&) {
           image.height(),
           image.layers(),
           {image.values().data()},
+          false,
           {}};
 }
 
 Texels texelsOf(const Image& image, const TextureOptions& options) {
-  Texels texels{byteFormat(image.channels), image.width, image.height, 1, {image.bytes.data()}, {}};
+  Texels texels{byteFormat(image.channels), image.width, image.height, 1, {image.bytes.data()}, false, {}};
   if (!options.srgb) return texels;
   if (image.channels <= 2) {
     texels.expanded = expandGrey(image);
@@ -95,16 +97,16 @@ Texels texelsOf(const Image& image, const TextureOptions& options) {
 }
 
 Texels texelsOf(const WideImage& image, const TextureOptions&) {
-  return {wordFormat(image.channels), image.width, image.height, 1, {image.words.data()}, {}};
+  return {wordFormat(image.channels), image.width, image.height, 1, {image.words.data()}, false, {}};
 }
 Texels texelsOf(const TextureImage& image, const TextureOptions&) {
-  Texels texels{floatFormat(image.precision(), image.channels()),
+  Texels texels{texelFormat(image.type(), image.channels()),
                 image.width(),
                 image.height(),
                 image.layers(),
                 {},
+                true,
                 {}};
-  if (image.precision() == Precision::Half) texels.format.type = GL_HALF_FLOAT;
   for (int level = 0; level < image.levels(); ++level) texels.levels.push_back(image.bytes(level).data());
   return texels;
 }
@@ -134,7 +136,6 @@ void expectFits(const TextureOptions& options, const FloatImage& image) {
   expectLayersFit(options, image);
 }
 void expectFits(const TextureOptions& options, const TextureImage& image) {
-  WEFT_EXPECT(options.filter != TextureFilter::Mipmapped, "a TextureImage brings its own levels");
   expectLayersFit(options, image);
 }
 /// An Image or WideImage of so many values.
@@ -155,7 +156,8 @@ void expectFits(const TextureOptions& options, const WideImage& image) {
 }
 
 int levelsOf(const TextureOptions& options, const Texels& texels) {
-  if (options.filter != TextureFilter::Mipmapped) return static_cast<int>(texels.levels.size());
+  if (texels.hasLevels || options.filter != TextureFilter::Mipmapped)
+    return static_cast<int>(texels.levels.size());
   int size = std::max(texels.width, texels.height);
   if (options.shape == TextureShape::ThreeDimensional) size = std::max(size, texels.layers);
   return static_cast<int>(std::bit_width(static_cast<unsigned>(size)));
@@ -207,7 +209,7 @@ void upload(GLuint texture, const TextureOptions& options, const Texels& texels)
   for (int level = 0; level < static_cast<int>(texels.levels.size()); ++level)
     upload(texture, options, texels, level);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);  // GL's default
-  if (options.filter == TextureFilter::Mipmapped) glGenerateTextureMipmap(texture);
+  if (!texels.hasLevels && options.filter == TextureFilter::Mipmapped) glGenerateTextureMipmap(texture);
 }
 
 /// Brings the GL texture up to date, or reports why that cannot be.

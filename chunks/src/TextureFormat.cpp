@@ -13,13 +13,14 @@ struct FormatRow {
   GLenum word;
   GLenum half;
   GLenum single;
+  GLenum signedByte;
 };
 
 constexpr FormatRow kFormats[] = {
-    {GL_RED, GL_R8, 0, GL_R16, GL_R16F, GL_R32F},
-    {GL_RG, GL_RG8, 0, GL_RG16, GL_RG16F, GL_RG32F},
-    {GL_RGB, GL_RGB8, GL_SRGB8, GL_RGB16, GL_RGB16F, GL_RGB32F},
-    {GL_RGBA, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16, GL_RGBA16F, GL_RGBA32F},
+    {GL_RED, GL_R8, 0, GL_R16, GL_R16F, GL_R32F, GL_R8_SNORM},
+    {GL_RG, GL_RG8, 0, GL_RG16, GL_RG16F, GL_RG32F, GL_RG8_SNORM},
+    {GL_RGB, GL_RGB8, GL_SRGB8, GL_RGB16, GL_RGB16F, GL_RGB32F, GL_RGB8_SNORM},
+    {GL_RGBA, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16, GL_RGBA16F, GL_RGBA32F, GL_RGBA8_SNORM},
 };
 
 const FormatRow& row(int channels) {
@@ -36,6 +37,21 @@ TextureFormat floatFormat(Precision precision, int channels) {
 
 TextureFormat byteFormat(int channels) {
   return {row(channels).byte, row(channels).channels, GL_UNSIGNED_BYTE};
+}
+
+TextureFormat texelFormat(TexelType type, int channels) {
+  const FormatRow& format = row(channels);
+  switch (type) {
+    case TexelType::Half:
+      return {format.half, format.channels, GL_HALF_FLOAT};
+    case TexelType::Float:
+      return {format.single, format.channels, GL_FLOAT};
+    case TexelType::SignedByte:
+      return {format.signedByte, format.channels, GL_BYTE};
+    case TexelType::SharedExponent:
+      return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV};
+  }
+  return {};
 }
 
 TextureFormat wordFormat(int channels) {

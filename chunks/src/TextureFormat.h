@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include "weft/core/FloatImage.h"
+#include "weft/core/TextureImage.h"
 
 namespace weft {
 
@@ -16,6 +17,8 @@ struct TextureFormat {
 /// `channels` is 1..4.
 TextureFormat floatFormat(Precision precision, int channels);
 TextureFormat byteFormat(int channels);
+/// Of a TextureImage, as its bytes lie.
+TextureFormat texelFormat(TexelType type, int channels);
 TextureFormat wordFormat(int channels);
 /// `channels` is 3 or 4.
 TextureFormat srgbFormat(int channels);

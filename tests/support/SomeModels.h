@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,32 @@ inline FloatImage unevenNumbers(int width, int height, const std::vector<std::st
   return image;
 }
 
+/// What a GPU keeps of base colours and of parameters that it filters.
+inline void roundAsFiltered(FloatImage& shared) {
+  for (int y = 0; y < shared.height(); ++y)
+    for (int x = 0; x < shared.width(); ++x) {
+      const std::span<float> texel = shared.texel(x, y);
+      const glm::vec3 color =
+          glm::unpackF3x9_E1x5(glm::packF3x9_E1x5(glm::vec3(texel[0], texel[1], texel[2])));
+      for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = color[c];
+      for (float& number : texel.subspan(3)) number = std::round(60.0f * (number - 1.0f)) / 127.0f;
+    }
+}
+
+/// Tables of a model, every number another.
+inline FieldTables unevenTables(const ReflectanceModel& model, int views) {
+  constexpr int kMapSize = 5;
+  FieldTables tables;
+  for (const ModelTable& table : model.tables()) {
+    const bool isRegistration = table.name == "registration";
+    const bool isMap = !isRegistration && table.width == 0;
+    const int width = isRegistration ? views : isMap ? kMapSize * views : table.width;
+    const int height = isRegistration ? 1 : isMap ? kMapSize : views;
+    tables[table.name] = unevenNumbers(width, height, table.channels, 1, Precision::Half);
+  }
+  return tables;
+}
+
 /// A field of four views and five lights whose every number is another, so that a mix-up of texels,
 /// layers or channels shows.
 inline ReflectanceField unevenField(const ModelDescription& description, int width, int height,
@@ -58,10 +86,12 @@ inline ReflectanceField unevenField(const ModelDescription& description, int wid
                   directionFromDegrees(50, 250), directionFromDegrees(75, 77)};
   about.hasCosine = model->containsCosine();
   about.source = "uneven";
-  const int layers = valueOf(FieldFormula::create(model, about)).layerCount();
-  return valueOf(ReflectanceField::create(
-      model, about, unevenNumbers(width, height, model->sharedChannels(), 1, precision),
-      layers > 0 ? unevenNumbers(width, height, model->layerChannels(), layers, precision) : FloatImage()));
+  const int layers = valueOf(FieldFormula::create(model, about)).storedLayers();
+  FieldLevel level{unevenNumbers(width, height, model->sharedChannels(), 1, precision), {}};
+  if (model->filtersParameters()) roundAsFiltered(level.shared);
+  if (layers > 0) level.layers = unevenNumbers(width, height, model->layerChannels(), layers, precision);
+  return valueOf(ReflectanceField::create(model, about, {level},
+                                          unevenTables(*model, static_cast<int>(about.views.size()))));
 }
 
 }  // namespace weft::test

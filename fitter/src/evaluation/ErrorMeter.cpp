@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 
 #include "weft/core/BatchEncoding.h"
 
@@ -27,19 +28,14 @@ ErrorMeter::ErrorMeter(FieldFormula formula, FittedPairs pairs, const BtfDescrip
   runs_ = findRuns();
 }
 
-// The layers' numbers and weights around a view, or light.
+// The layers and weights around a view, or light.
 template <class Function>
-void ErrorMeter::forEachLayer(std::size_t direction, std::span<const float> layers,
-                              const Function& function) const {
-  if (formula_.layerCount() == 0) return function(layers, 1.0f);
+void ErrorMeter::forEachLayer(std::size_t direction, const Function& function) const {
   const DirectionWeights& around = layers_[direction];
-  const std::size_t channels = layers.size() / static_cast<std::size_t>(formula_.layerCount());
   for (int k = 0; k < 3; ++k) {
     // Measured directions are layers themselves, but for rounding.
     if (around.weight[k] < 1e-4f) continue;
-    const auto index = static_cast<std::size_t>(around.index[static_cast<std::size_t>(k)]);
-    function(layers.subspan(index * channels, channels),
-             around.weight[k] > 0.9999f ? 1.0f : around.weight[k]);
+    function(around.index[static_cast<std::size_t>(k)], around.weight[k] > 0.9999f ? 1.0f : around.weight[k]);
   }
 }
 
@@ -48,21 +44,22 @@ void ErrorMeter::evaluateView(std::span<const float> shared, std::span<const flo
   if (layersAreLights_) {
     std::ranges::fill(values, glm::vec3(0.0f));
     for (std::size_t light = 0; light < lights_.size(); ++light)
-      forEachLayer(light, layers, [&](std::span<const float> layer, float weight) {
-        values[light] += weight * formula_.evaluate(shared, layer, lights_[light], views_[view]);
+      forEachLayer(light, [&](int layer, float weight) {
+        values[light] +=
+            weight * formula_.evaluate(shared, formula_.layerOf(layers, layer), lights_[light], views_[view]);
       });
     return;
   }
   bool isFirst = true;
   std::vector<glm::vec3> ofLayer;
-  forEachLayer(view, layers, [&](std::span<const float> layer, float weight) {
+  forEachLayer(view, [&](int layer, float weight) {
     if (isFirst) {
-      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], values);
+      formula_.evaluateLights(shared, layers, layer, modelledLights_, views_[view], values);
       if (weight != 1.0f)
         for (glm::vec3& value : values) value *= weight;
     } else {
       ofLayer.resize(values.size());
-      formula_.evaluateLights(shared, layer, modelledLights_, views_[view], ofLayer);
+      formula_.evaluateLights(shared, layers, layer, modelledLights_, views_[view], ofLayer);
       for (std::size_t light = 0; light < values.size(); ++light) values[light] += weight * ofLayer[light];
     }
     isFirst = false;
@@ -84,15 +81,8 @@ std::vector<ErrorMeter::Run> ErrorMeter::findRuns() const {
   return runs;
 }
 
-void ErrorMeter::measure(const RunParameters& parameters, TexelRun& texels,
-                         std::span<SplitErrors> errors) const {
-  WEFT_EXPECT(parameters.size() == texels.size() && std::ssize(errors) == texels.size(), "all of one run");
-  for (int i = 0; i < texels.size(); ++i)
-    errors[static_cast<std::size_t>(i)] =
-        measureTexel(parameters.shared(i), parameters.layers(i), texels.measured(i));
-}
-
-SplitErrors ErrorMeter::measureTexel(std::span<const float> shared, std::span<const float> layers,
+template <class SharedOf>
+SplitErrors ErrorMeter::measureTexel(const SharedOf& sharedOf, std::span<const float> layers,
                                      const TexelSamples& samples) const {
   const float grazingZ = std::cos(glm::radians(59.9f));
   const std::size_t lightCount = lights_.size();
@@ -103,7 +93,7 @@ SplitErrors ErrorMeter::measureTexel(std::span<const float> shared, std::span<co
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
     if (i == 0 || runs_[i - 1].view != run.view) {
-      evaluateView(shared, layers, run.view, linearModel);
+      evaluateView(sharedOf(run.view), layers, run.view, linearModel);
       std::ranges::copy(linearModel, storedModel.begin());
       encodeAll(encoding_, floatsOf(storedModel));
     }
@@ -116,6 +106,28 @@ SplitErrors ErrorMeter::measureTexel(std::span<const float> shared, std::span<co
              views_[run.view].z < grazingZ);
   }
   return errors;
+}
+
+void ErrorMeter::measure(const RunParameters& parameters, TexelRun& texels,
+                         std::span<SplitErrors> errors) const {
+  WEFT_EXPECT(parameters.size() == texels.size() && std::ssize(errors) == texels.size(), "all of one run");
+  for (int i = 0; i < texels.size(); ++i)
+    errors[static_cast<std::size_t>(i)] = measureTexel([&](std::size_t) { return parameters.shared(i); },
+                                                       parameters.layers(i), texels.measured(i));
+}
+
+void ErrorMeter::measure(const ReflectanceField& field, TexelRun& texels,
+                         std::span<SplitErrors> errors) const {
+  WEFT_EXPECT(std::ssize(errors) == texels.size(), "an error a texel");
+  std::vector<float> layers, filtered;
+  for (int i = 0; i < texels.size(); ++i) {
+    const int x = texels.x() + i, y = texels.y();
+    layers.clear();
+    for (int layer = 0; layer < field.layers().layers(); ++layer)
+      std::ranges::copy(field.layers().texel(x, y, layer), std::back_inserter(layers));
+    const auto sharedOf = [&](std::size_t view) { return field.sharedSeenAt(x, y, views_[view], filtered); };
+    errors[static_cast<std::size_t>(i)] = measureTexel(sharedOf, layers, texels.measured(i));
+  }
 }
 
 }  // namespace weft

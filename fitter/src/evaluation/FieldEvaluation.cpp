@@ -31,17 +31,6 @@ std::vector<ShownPair> shownPairs(const BtfDescription& measured) {
   return pairs;
 }
 
-RunParameters parametersOf(const ReflectanceField& field, const TexelRun& run) {
-  RunParameters parameters(field.formula(), run.size());
-  for (int i = 0; i < run.size(); ++i) {
-    std::ranges::copy(field.shared().texel(run.x() + i, run.y()), parameters.shared(i).begin());
-    auto next = parameters.layers(i).begin();
-    for (int layer = 0; layer < field.layers().layers(); ++layer)
-      next = std::ranges::copy(field.layers().texel(run.x() + i, run.y(), layer), next).out;
-  }
-  return parameters;
-}
-
 void put(FloatImage& image, int x, int y, glm::vec3 rgb) {
   for (int channel = 0; channel < 3; ++channel) image.at(x, y, channel) = rgb[channel];
 }
@@ -73,7 +62,7 @@ void compareRun(const ReflectanceField& field, const ErrorMeter& meter, TexelRun
                 const std::vector<ShownPair>& shown, FieldEvaluation& evaluation) {
   const std::size_t first = static_cast<std::size_t>(run.y()) * static_cast<std::size_t>(field.width()) +
                             static_cast<std::size_t>(run.x());
-  meter.measure(parametersOf(field, run), run,
+  meter.measure(field, run,
                 std::span(evaluation.texels).subspan(first, static_cast<std::size_t>(run.size())));
   for (int x = run.x(); x < run.x() + run.size(); ++x)
     for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -104,12 +93,12 @@ Result<FieldEvaluation> evaluateField(const ReflectanceField& field, const BtfSo
                                 FloatImage(crop.width, crop.height, {"R", "G", "B"})});
 
   const int rowsAtOnce = std::min(source.rowsWithin(memory), crop.height);
-  SampleRows rows;
+  SampleWindow window;
   for (int first = 0; first < crop.height; first += rowsAtOnce) {
     const int count = std::min(rowsAtOnce, crop.height - first);
-    WEFT_TRY_VOID(source.readRows(crop.y + first, count, rows));
+    WEFT_TRY_VOID(window.read(source, crop, first, count, 0));
     tbb::parallel_for(0, count, [&](int i) {
-      const SampledRow row{rows, i, measured, meter.pairs(), crop.x, crop.width, first + i};
+      const SampledRow row{window, measured, meter.pairs(), crop, first + i};
       tbb::parallel_for(0, TexelRun::runsIn(crop.width), [&](int number) {
         TexelRun run(row, number);
         compareRun(field, meter, run, shown, evaluation);

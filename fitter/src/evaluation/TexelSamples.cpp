@@ -7,13 +7,17 @@
 
 namespace weft {
 
-TexelSamples texelSamples(const SampleRows& rows, const BtfDescription& measured, int row, int column) {
-  TexelSamples samples{std::vector<glm::vec3>(rows.pairs()), std::vector<glm::vec3>(rows.pairs())};
-  rows.linear(row, column, samples.linear);
-  if (measured.storedAsBytes && measured.cosineInData) {
-    rows.stored(row, column, samples.stored);
-    return samples;
+TexelSamples texelSamples(const BtfDescription& measured, std::span<const SamplePlace> places) {
+  const std::size_t pairs = measured.views.size() * measured.lights.size();
+  const std::size_t each = pairs / places.size();
+  const bool areAsStored = measured.storedAsBytes && measured.cosineInData;
+  TexelSamples samples{std::vector<glm::vec3>(pairs), std::vector<glm::vec3>(pairs)};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [rows, row, column] = places[i];
+    rows->linear(row, column, std::span(samples.linear).subspan(i * each, each), i * each);
+    if (areAsStored) rows->stored(row, column, std::span(samples.stored).subspan(i * each, each), i * each);
   }
+  if (areAsStored) return samples;
   const std::size_t lights = measured.lights.size();
   for (std::size_t i = 0; i < samples.linear.size(); ++i) {
     glm::vec3& sample = samples.linear[i];

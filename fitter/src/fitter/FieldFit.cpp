@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <future>
 #include <mutex>
 
@@ -13,6 +14,7 @@
 #include "RowSaver.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Version.h"
+#include "weft/evaluation/FieldEvaluation.h"
 #include "weft/evaluation/HoldOut.h"
 
 namespace weft {
@@ -70,6 +72,15 @@ Result<std::string> fingerprintOf(const BtfSource& source, const FitOptions& opt
              options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
 }
 
+// Those that are held out are never asked for.
+std::vector<glm::ivec2> ofMeasuredViews(const std::vector<glm::ivec2>& offsets, const FittedPairs& pairs) {
+  if (offsets.empty()) return {};
+  std::vector<glm::ivec2> all;
+  std::size_t next = 0;
+  for (const bool isFitted : pairs.views()) all.push_back(isFitted ? offsets[next++] : glm::ivec2(0));
+  return all;
+}
+
 Result<void> checkComplete(const PassRows& rows, int height) {
   const int missing = rows.firstMissing();
   if (missing < height) return fail(fmt::format("row {} has not been fitted", missing));
@@ -119,7 +130,8 @@ struct FieldFit::Data {
   PartsFolder folder;
   std::vector<std::unique_ptr<GatheredRows>> gathered;  ///< of each gathering pass
   FittedRows rows;
-  std::optional<ErrorMeter> meter;  ///< in the last pass
+  std::optional<ErrorMeter> meter;       ///< in the last pass, unless the views are registered
+  std::vector<glm::ivec2> registration;  ///< a measured view; empty: they are not
   std::size_t pass = 0;
   double secondsReading = 0.0;
   double secondsFitting = 0.0;
@@ -131,9 +143,11 @@ struct FieldFit::Data {
   bool inLastPass() const { return pass == gathered.size(); }
   PassRows& passRows() { return inLastPass() ? static_cast<PassRows&>(rows) : *gathered[pass]; }
   Result<void> beginPass();
+  int halo() const;
+  Result<void> measureErrors(const std::vector<FieldLevel>& levels);
   std::vector<RowRange> blocksToDo(int firstRow, int count);
   Result<void> doBlocks(const std::vector<RowRange>& blocks, RowSaver& saver, RowCounter& counter);
-  void doBlock(const SampleRows& samples, RowRange block, RowSaver& saver, RowCounter& counter);
+  void doBlock(const SampleWindow& samples, RowRange block, RowSaver& saver, RowCounter& counter);
   void gatherRow(const SampledRow& row);
   void fitRow(const SampledRow& row);
 };
@@ -156,7 +170,14 @@ FieldFit::Data::Data(const BtfSource& source_, const FitOptions& options_, const
     gathered.push_back(std::make_unique<GatheredRows>(folder, i, crop.height));
 }
 
+int FieldFit::Data::halo() const {
+  int farthest = 0;
+  for (const glm::ivec2 offset : registration) farthest = std::max(farthest, std::abs(offset.y));
+  return farthest;
+}
+
 Result<void> FieldFit::Data::beginPass() {
+  registration = ofMeasuredViews(fitter->registration(), pairs);
   if (!inLastPass()) return {};
   const auto tables = std::make_shared<const FieldTables>(fitter->tables());
   WEFT_TRY(const auto bound, boundModel(model, tables));
@@ -167,8 +188,9 @@ Result<void> FieldFit::Data::beginPass() {
 
 // The rows that are not done, in runs that fit into memory; where there are several, two at once.
 std::vector<RowRange> FieldFit::Data::blocksToDo(int firstRow, int count) {
-  const int atOnce =
-      source.rowsWithin(options.memory) >= count ? count : source.rowsWithin(options.memory / 2);
+  const int around = 2 * halo();
+  const bool fitsAtOnce = source.rowsWithin(options.memory) >= std::min(count + around, crop.height);
+  const int atOnce = fitsAtOnce ? count : std::max(source.rowsWithin(options.memory / 2) - around, 1);
   std::vector<RowRange> blocks;
   for (int row = firstRow; row < firstRow + count; ++row) {
     if (passRows().isDone(row)) continue;
@@ -183,10 +205,10 @@ std::vector<RowRange> FieldFit::Data::blocksToDo(int firstRow, int count) {
 
 Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSaver& saver,
                                       RowCounter& counter) {
-  std::array<SampleRows, 2> samples;
-  const auto readInto = [&](SampleRows& to, RowRange block) {
+  std::array<SampleWindow, 2> samples;
+  const auto readInto = [&](SampleWindow& to, RowRange block) {
     return std::async(std::launch::async,
-                      [&, block] { return source.readRows(crop.y + block.first, block.count, to); });
+                      [&, block] { return to.read(source, crop, block.first, block.count, halo()); });
   };
   std::future<Result<void>> reading;
   if (!blocks.empty()) reading = readInto(samples[0], blocks[0]);
@@ -202,10 +224,10 @@ Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSa
   return {};
 }
 
-void FieldFit::Data::doBlock(const SampleRows& samples, RowRange block, RowSaver& saver,
+void FieldFit::Data::doBlock(const SampleWindow& samples, RowRange block, RowSaver& saver,
                              RowCounter& counter) {
   tbb::parallel_for(0, block.count, [&](int i) {
-    const SampledRow row{samples, i, source.description(), pairs, crop.x, crop.width, block.first + i};
+    const SampledRow row{samples, source.description(), pairs, crop, block.first + i, registration};
     inLastPass() ? fitRow(row) : gatherRow(row);
     passRows().setDone({row.y, 1});
     saver.wake();
@@ -222,13 +244,14 @@ void FieldFit::Data::gatherRow(const SampledRow& row) {
 }
 
 void FieldFit::Data::fitRow(const SampledRow& row) {
-  tbb::parallel_for(0, TexelRun::runsIn(crop.width), [&](int number) {
-    TexelRun run(row, number);
+  const int length = fitter->texelsAtOnce();
+  tbb::parallel_for(0, TexelRun::runsIn(crop.width, length), [&](int number) {
+    TexelRun run(row, number, length);
     RunParameters parameters(formula, run.size());
     fitter->fit(run, parameters);
     if (options.precision == Precision::Half) parameters.roundToHalf();
     rows.put(run.x(), run.y(), parameters);
-    meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
+    if (registration.empty()) meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
   });
 }
 
@@ -245,7 +268,8 @@ Result<FieldFit> FieldFit::create(const BtfSource& source, const FitOptions& opt
   WEFT_TRY(const FieldFormula formula, FieldFormula::create(model, description));
   WEFT_TRY(std::unique_ptr<FieldFitter> fitter,
            options.fitters.create({description.views, description.lights, description.hasCosine,
-                                   options.space == FitSpace::Linear, model, measured.encoding}));
+                                   options.space == FitSpace::Linear, model, measured.encoding, crop.width,
+                                   crop.height}));
   WEFT_TRY(std::string fingerprint, fingerprintOf(source, options, crop, model->description()));
   auto data = std::make_unique<Data>(source, options, crop, formula, std::move(model), std::move(fitter),
                                      std::move(description), std::move(fingerprint));
@@ -303,16 +327,26 @@ Result<FitResult> FieldFit::finish() {
     data.rows.shared.setPrecision(Precision::Half);
     data.rows.layers.setPrecision(Precision::Half);
   }
+  std::vector<FieldLevel> levels =
+      data.fitter->levels({std::move(data.rows.shared), std::move(data.rows.layers)});
+  if (!data.registration.empty()) WEFT_TRY_VOID(data.measureErrors(levels));
   const FitErrors errors = summarize(data.rows.errors, &SplitErrors::fitted);
   std::optional<FitErrors> heldOut;
   if (data.pairs.holdOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
   data.description.fitReport = toJson(errors, heldOut);
-  std::vector<FieldLevel> levels(1);
-  levels[0] = {std::move(data.rows.shared), std::move(data.rows.layers)};
   WEFT_TRY(ReflectanceField field, ReflectanceField::create(data.model, std::move(data.description),
                                                             std::move(levels), data.fitter->tables()));
   return FitResult{std::move(field),   errors, heldOut, std::move(data.rows.errors), data.secondsReading,
                    data.secondsFitting};
+}
+
+// What texels of a registered surface show at other places is known when all have been fitted.
+Result<void> FieldFit::Data::measureErrors(const std::vector<FieldLevel>& levels) {
+  WEFT_TRY(const ReflectanceField field,
+           ReflectanceField::create(model, description, levels, fitter->tables()));
+  WEFT_TRY(FieldEvaluation evaluation, evaluateField(field, source, crop, options.memory));
+  rows.errors = std::move(evaluation.texels);
+  return {};
 }
 
 void FieldFit::removeParts() const {

@@ -1,5 +1,7 @@
 #include "weft/fitter/FieldFitter.h"
 
+#include <utility>
+
 #include "weft/core/Contract.h"
 
 namespace weft {
@@ -8,6 +10,12 @@ void FieldFitter::gather(int, TexelRun&, std::vector<double>&) const {}
 
 Result<void> FieldFitter::endPass(int, std::span<const std::vector<double>>) {
   return {};
+}
+
+std::vector<FieldLevel> FieldFitter::levels(FieldLevel finest) const {
+  std::vector<FieldLevel> levels;
+  levels.push_back(std::move(finest));
+  return levels;
 }
 
 std::vector<double> addedUp(std::span<const std::vector<double>> ofRows) {

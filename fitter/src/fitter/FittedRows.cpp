@@ -10,8 +10,8 @@ FittedRows::FittedRows(const PartsFolder& folder, int pass, int width, int heigh
     : PassRows(folder, pass, height),
       shared(width, height, formula.model().sharedChannels()),
       errors(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  if (formula.layerCount() > 0)
-    layers = FloatImage(width, height, formula.model().layerChannels(), formula.layerCount());
+  if (formula.storedLayers() > 0)
+    layers = FloatImage(width, height, formula.model().layerChannels(), formula.storedLayers());
 }
 
 void FittedRows::put(int x, int y, const RunParameters& parameters) {

@@ -274,7 +274,7 @@ Result<void> addTexelFigure(HtmlReport& report, const RawBtf& btf, const FitOpti
   const BtfDescription& measured = btf.description();
   const int x = measured.width / 2, y = measured.height / 2;
   std::vector<NamedPairs> texels{
-      {"measured", storedLuminance(texelSamples(btf.samples(), measured, y, x).stored)}};
+      {"measured", storedLuminance(texelSamples(measured, {&btf.samples(), y, x}).stored)}};
   if (isAmong(models, "laf"))
     for (const int lobes : {2, 10}) {
       FitOptions ofTexel = options;

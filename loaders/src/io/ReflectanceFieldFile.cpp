@@ -198,6 +198,7 @@ Result<FieldShape> checkParts(const Imf::MultiPartInputFile& file, const FieldMa
 }
 
 std::size_t layerCount(const ReflectanceModel& model, const ReflectanceFieldDescription& field) {
+  if (model.layerParameters().empty()) return 0;
   switch (model.layerDirections()) {
     case LayerDirections::None:
       return 0;

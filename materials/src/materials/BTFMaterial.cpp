@@ -62,8 +62,13 @@ BTFMaterial::BTFMaterial(std::shared_ptr<const BTFTextures> textures, const BTFM
 
 void BTFMaterial::setProgram() {
   ShaderSource source = textures_->source();
-  source.includeAliases["where.glsl"] =
-      options_.filter == TexelFilter::Bilinear ? "where_bilinear.glsl" : "where_texel.glsl";
+  const bool isBilinear = options_.filter == TexelFilter::Bilinear;
+  if (textures_->filtersParameters()) {
+    source.includeAliases["where.glsl"] = "where_filtered.glsl";
+    if (!isBilinear) source.defines.emplace_back("NEAREST_TEXEL", "");
+  } else {
+    source.includeAliases["where.glsl"] = isBilinear ? "where_bilinear.glsl" : "where_texel.glsl";
+  }
   if (options_.interpolatedViews == 1) source.defines.emplace_back("NEAREST_LAYER", "");
   setChunk(ProgramSlot, std::make_shared<ProgramChunk>(std::move(source)));
   setChunk(RasterSlot, std::make_shared<RasterChunk>(options_.doubleSided ? Culling::None : Culling::Back));

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 
 #include "weft/chunks/CubeTextureChunk.h"
 #include "weft/chunks/TextureChunk.h"
@@ -25,10 +26,28 @@ Images packed(const ReflectanceField& field, bool prepared) {
   };
   add(bindings::layerParametersUnit, textures.layers);
   add(bindings::sharedParametersUnit, textures.shared);
+  add(bindings::baseColorsUnit, textures.baseColors);
   add(bindings::preparedParametersUnit, textures.preparedLayers);
   int unit = bindings::firstTableUnit;
   for (auto& [name, table] : textures.tables) add(unit++, table);
   return images;
+}
+
+// How the images are sampled that are not read texel by texel.
+std::map<int, TextureOptions> samplingOf(const ReflectanceField& field) {
+  std::map<int, TextureOptions> sampling;
+  if (field.model().filtersParameters())
+    for (const int unit : {bindings::sharedParametersUnit, bindings::baseColorsUnit})
+      sampling[unit] = {.filter = TextureFilter::Mipmapped, .wrap = TextureWrap::Repeat};
+  std::set<std::string> filtered;
+  for (const ModelTable& table : field.model().tables())
+    if (table.isFiltered) filtered.insert(table.name);
+  int unit = bindings::firstTableUnit;
+  for (const auto& [name, table] : field.tables()) {
+    if (filtered.contains(name)) sampling[unit] = {.filter = TextureFilter::Linear};
+    ++unit;
+  }
+  return sampling;
 }
 
 // What is packed; with a source only until it is on a GPU: then the next to ask has all of it made
@@ -71,15 +90,19 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
     return fail(fmt::format("the field has {} tables of at most {}", tables, bindings::mostTables));
   std::shared_ptr<BTFTextures> made(new BTFTextures);
   made->size_ = {field.width(), field.height()};
+  made->filtersParameters_ = field.model().filtersParameters();
   made->setProgram(FieldProgram::create(field));
   const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());
   if (prepared) made->source_.defines.emplace_back("ENVIRONMENT_LAYERS", "");
   const Images images = packed(field, prepared);
   const auto shelf = std::make_shared<PackedField>(images, prepared, std::move(source));
-  for (const auto& [unit, image] : images)
+  std::map<int, TextureOptions> sampling = samplingOf(field);
+  for (const auto& [unit, image] : images) {
+    sampling[unit].shape = TextureShape::Array;
     made->add(unit, std::make_shared<TextureChunk>(
                         std::make_shared<const TextureSource>([shelf, unit] { return shelf->take(unit); }),
-                        TextureOptions{.shape = TextureShape::Array}));
+                        sampling[unit]));
+  }
   return made;
 }
 

@@ -1,5 +1,7 @@
 #include "weft/reflectance/FieldFormula.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -55,11 +57,17 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
     WEFT_TRY(formula.triangulation_, HemisphereTriangulation::create(directions));
     formula.layerCount_ = static_cast<int>(directions.size());
   }
+  const Registration& registration = model->registration();
+  if (!registration.empty() && std::ssize(registration.deviations) != formula.layerCount_)
+    return fail(fmt::format("{} views are registered and {} are described", registration.deviations.size(),
+                            formula.layerCount_));
+  formula.layersAreCommon_ = model->layerParameters().empty();
   if (!model->integratesEnvironments() || description.encoding != Encoding::Linear ||
       description.hasCosine != model->containsCosine())
     formula.quadrature_ = LightQuadrature::create(description.lights);
   formula.sharedNumbers_ = model->sharedChannels().size();
-  formula.layerNumbers_ = model->layerChannels().size();
+  formula.layerNumbers_ = formula.layersAreCommon_ && formula.layerCount_ > 0 ? model->commonLayer(0).size()
+                                                                              : model->layerChannels().size();
   formula.model_ = std::move(model);
   formula.hasCosine_ = description.hasCosine;
   formula.encoding_ = description.encoding;
@@ -89,12 +97,32 @@ glm::vec3 FieldFormula::evaluate(std::span<const float> shared, std::span<const 
   return factor * (encoding_ == Encoding::Linear ? value : decode(encoding_, value));
 }
 
-void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const float> layer,
-                                  const ModelledLights& lights, glm::vec3 view,
+std::span<const float> FieldFormula::layerOf(std::span<const float> storedLayers, int layer) const {
+  if (layersAreCommon_) return model_->commonLayer(layer);
+  return storedLayers.subspan(static_cast<std::size_t>(layer) * layerNumbers_, layerNumbers_);
+}
+
+glm::vec2 FieldFormula::shift(const DirectionWeights& layers, glm::vec3 view) const {
+  const Registration& registration = model_->registration();
+  if (registration.empty()) return glm::vec2(0.0f);
+  glm::vec2 shift = registration.height * reliefTangent(notBelow(view, lowestViewZ_));
+  for (int k = 0; k < 3; ++k)
+    shift += layers.weight[k] *
+             registration.deviations[static_cast<std::size_t>(layers.index[static_cast<std::size_t>(k)])];
+  return shift;
+}
+
+void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const float> storedLayers,
+                                  int layer, const ModelledLights& lights, glm::vec3 view,
                                   std::span<glm::vec3> values) const {
-  expectNumbers(shared, layer);
   WEFT_EXPECT(values.size() == lights.directions.size(), "there is room for a value a light");
-  model_->evaluateColors(shared, layer, lights.directions, notBelow(view, lowestViewZ_), values);
+  if (!lights.layers.empty()) {
+    model_->evaluateSampled(shared, lights.layers[static_cast<std::size_t>(layer)], values);
+  } else {
+    const std::span<const float> numbers = layerOf(storedLayers, layer);
+    expectNumbers(shared, numbers);
+    model_->evaluateColors(shared, numbers, lights.directions, notBelow(view, lowestViewZ_), values);
+  }
   if (encoding_ != Encoding::Linear) decodeAll(encoding_, floatsOf(values));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] *= lights.factors[i];
 }
@@ -103,6 +131,9 @@ ModelledLights FieldFormula::modelledLights(std::span<const glm::vec3> lights) c
   ModelledLights modelled{std::vector<glm::vec3>(lights.size()), std::vector<float>(lights.size())};
   for (std::size_t i = 0; i < lights.size(); ++i)
     if (lights[i].z > 0.0f) modelled.directions[i] = modelledLight(lights[i], modelled.factors[i]);
+  if (layersAreCommon_ && layerNumbers_ > 0)
+    for (int layer = 0; layer < layerCount_; ++layer)
+      modelled.layers.push_back(model_->sampledLayer(model_->commonLayer(layer), modelled.directions));
   return modelled;
 }
 

@@ -24,8 +24,8 @@ TextureImage packShared(const ReflectanceField& field) {
   const ReflectanceModel& model = field.model();
   const int texels = FieldTextures::sharedTexels(model), channels = model.colorChannels();
   const std::size_t numbers = model.sharedParameters().size();
-  TextureImage packed(field.width(), field.height(), channels * texels, 4, field.shared().precision(),
-                      levelsOf(field));
+  TextureImage packed(field.width(), field.height(), channels * texels, 4,
+                      texelType(field.shared().precision()), levelsOf(field));
   for (int level = 0; level < levelsOf(field); ++level) {
     const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
     forEachTexel(from, [&](int x, int y, int) {
@@ -40,16 +40,37 @@ TextureImage packShared(const ReflectanceField& field) {
   return packed;
 }
 
+// Of a model whose parameters are filtered: base colours apart, a byte a number.
+TextureImage packBaseColors(const ReflectanceField& field) {
+  TextureImage packed(field.width(), field.height(), 1, 3, TexelType::SharedExponent, levelsOf(field));
+  for (int level = 0; level < levelsOf(field); ++level) {
+    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
+    forEachTexel(from, [&](int x, int y, int) { packed.set(x, y, 0, 0, from.texel(x, y).first(3), level); });
+  }
+  return packed;
+}
+
+TextureImage packFiltered(const ReflectanceField& field) {
+  TextureImage packed(field.width(), field.height(), FieldTextures::sharedTexels(field.model()), 4,
+                      TexelType::SignedByte, levelsOf(field));
+  for (int level = 0; level < levelsOf(field); ++level) {
+    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
+    forEachTexel(from,
+                 [&](int x, int y, int) { packed.set(x, y, 0, 0, from.texel(x, y).subspan(3), level); });
+  }
+  return packed;
+}
+
 // `change(numbers)` of each colour channel of each layer.
 template <class Change>
 TextureImage packLayers(const ReflectanceField& field, Change change) {
-  const int layers = field.formula().layerCount();
+  const int layers = field.formula().storedLayers();
   if (layers == 0) return {};
   const ReflectanceModel& model = field.model();
   const int texels = FieldTextures::layerTexels(model), channels = model.colorChannels();
   const std::size_t numbers = model.layerParameters().size();
   TextureImage packed(field.width(), field.height(), layers * channels * texels, 4,
-                      field.layers().precision(), levelsOf(field));
+                      texelType(field.layers().precision()), levelsOf(field));
   for (int level = 0; level < levelsOf(field); ++level) {
     const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].layers;
     forEachTexel(from, [&](int x, int y, int layer) {
@@ -76,7 +97,7 @@ int tableTexels(const FloatImage& table) {
 }
 
 TextureImage packTable(const FloatImage& table) {
-  TextureImage packed(table.width(), table.height(), tableTexels(table), 4, table.precision());
+  TextureImage packed(table.width(), table.height(), tableTexels(table), 4, texelType(table.precision()));
   forEachTexel(table, [&](int x, int y, int) { packed.set(x, y, 0, 0, table.texel(x, y)); });
   return packed;
 }
@@ -105,14 +126,15 @@ FloatImage nodesOf(const LightQuadrature& quadrature) {
 
 std::map<std::string, std::string> aliasesOf(const FieldFormula& formula) {
   const bool ofLights = formula.model().layerDirections() == LayerDirections::Lights;
+  const bool isFiltered = formula.model().filtersParameters();
   return {{"model.glsl", formula.model().shaderFile()},
+          {"fetch.glsl", isFiltered ? "fetch_filtered.glsl" : "fetch_texel.glsl"},
           {"shade.glsl", ofLights ? "shade_lights.glsl" : "shade_views.glsl"},
           {"surroundings.glsl",
            formula.integratesEnvironments() ? "surroundings_formula.glsl" : "surroundings_quadrature.glsl"}};
 }
 
-std::uint64_t textureBytes(const FloatImage& image, int arrayLayers) {
-  const std::uint64_t texelBytes = image.precision() == Precision::Half ? 8 : 16;
+std::uint64_t textureBytes(const FloatImage& image, int arrayLayers, std::uint64_t texelBytes) {
   return texelBytes * static_cast<std::uint64_t>(image.width()) * static_cast<std::uint64_t>(image.height()) *
          static_cast<std::uint64_t>(arrayLayers);
 }
@@ -120,8 +142,11 @@ std::uint64_t textureBytes(const FloatImage& image, int arrayLayers) {
 }  // namespace
 
 FieldTextures FieldTextures::create(const ReflectanceField& field, bool preparedForEnvironments) {
-  FieldTextures textures{
-      packShared(field), packLayers(field, [](std::span<const float> numbers) { return numbers; }), {}};
+  const bool isFiltered = field.model().filtersParameters();
+  FieldTextures textures{isFiltered ? packFiltered(field) : packShared(field),
+                         packLayers(field, [](std::span<const float> numbers) { return numbers; }),
+                         {},
+                         isFiltered ? packBaseColors(field) : TextureImage()};
   for (const auto& [name, table] : field.tables()) textures.tables[name] = packTable(table);
   if (preparedForEnvironments && canBePrepared(field.formula()))
     textures.preparedLayers = packPreparedLayers(field);
@@ -129,7 +154,8 @@ FieldTextures FieldTextures::create(const ReflectanceField& field, bool prepared
 }
 
 int FieldTextures::sharedTexels(const ReflectanceModel& model) {
-  return (3 + static_cast<int>(model.sharedParameters().size()) + 3) / 4;
+  const int besideBaseColor = static_cast<int>(model.sharedParameters().size());
+  return ((model.filtersParameters() ? 0 : 3) + besideBaseColor + 3) / 4;
 }
 
 int FieldTextures::layerTexels(const ReflectanceModel& model) {
@@ -137,7 +163,7 @@ int FieldTextures::layerTexels(const ReflectanceModel& model) {
 }
 
 int FieldTextures::arrayLayers(const FieldFormula& formula) {
-  return formula.layerCount() * formula.model().colorChannels() * layerTexels(formula.model());
+  return formula.storedLayers() * formula.model().colorChannels() * layerTexels(formula.model());
 }
 
 bool FieldTextures::canBePrepared(const FieldFormula& formula) {
@@ -148,11 +174,21 @@ bool FieldTextures::canBePrepared(const FieldFormula& formula) {
 
 std::uint64_t gpuBytes(const ReflectanceField& field) {
   const ReflectanceModel& model = field.model();
+  const auto texelBytes = [](const FloatImage& image) -> std::uint64_t {
+    return image.precision() == Precision::Half ? 8 : 16;
+  };
+  const int sharedLayers = model.colorChannels() * FieldTextures::sharedTexels(model);
   std::uint64_t bytes = 0;
-  for (const FieldLevel& level : field.levels())
-    bytes += textureBytes(level.shared, model.colorChannels() * FieldTextures::sharedTexels(model)) +
-             textureBytes(level.layers, FieldTextures::arrayLayers(field.formula()));
-  for (const auto& [name, table] : field.tables()) bytes += textureBytes(table, tableTexels(table));
+  for (const FieldLevel& level : field.levels()) {
+    if (model.filtersParameters())
+      bytes += textureBytes(level.shared, sharedLayers + 1, 4);
+    else
+      bytes += textureBytes(level.shared, sharedLayers, texelBytes(level.shared));
+    bytes +=
+        textureBytes(level.layers, FieldTextures::arrayLayers(field.formula()), texelBytes(level.layers));
+  }
+  for (const auto& [name, table] : field.tables())
+    bytes += textureBytes(table, tableTexels(table), texelBytes(table));
   return bytes;
 }
 
@@ -175,7 +211,10 @@ FieldProgram FieldProgram::create(const ReflectanceField& field) {
   if (const std::string text = model.shaderText(); !text.empty()) program.texts[model.shaderFile()] = text;
   int unit = bindings::firstTableUnit;
   for (const auto& [name, table] : field.tables()) program.defines["TABLE_" + name] = std::to_string(unit++);
-  if (formula.layerCount() > 0) program.lookup = LayerLookup::create(formula.triangulation());
+  if (formula.layerCount() > 0) {
+    program.defines["HAS_LAYERS"] = "";
+    program.lookup = LayerLookup::create(formula.triangulation());
+  }
   return program;
 }
 

@@ -7,6 +7,7 @@
 
 #include "weft/reflectance/BumpModel.h"
 #include "weft/reflectance/LafModel.h"
+#include "weft/reflectance/LoomModel.h"
 #include "weft/reflectance/RfnlModel.h"
 #include "weft/reflectance/RfpModel.h"
 
@@ -16,6 +17,7 @@ ModelRegistry ModelRegistry::builtin() {
   ModelRegistry registry;
   for (const auto& types : {RfpModel::types(), RfnlModel::types(), LafModel::types(), BumpModel::types()})
     for (const ModelType& type : types) registry.add(type);
+  registry.add(LoomModel::type());
   return registry;
 }
 

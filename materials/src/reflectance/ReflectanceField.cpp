@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <span>
 
 namespace weft {
@@ -21,9 +23,9 @@ Result<void> checkParameters(const FloatImage& image, const std::vector<std::str
 Result<void> checkLevel(const FieldLevel& level, const FieldFormula& formula) {
   const auto& [shared, layers] = level;
   if (shared.empty() || shared.layers() != 1) return fail("the shared numbers are not one image");
-  if (layers.layers() != formula.layerCount())
+  if (layers.layers() != formula.storedLayers())
     return fail(
-        fmt::format("{} layers are described and {} are there", formula.layerCount(), layers.layers()));
+        fmt::format("{} layers are described and {} are there", formula.storedLayers(), layers.layers()));
   if (!layers.empty() && (layers.width() != shared.width() || layers.height() != shared.height()))
     return fail("shared and layer numbers differ in size");
   WEFT_TRY_VOID(checkParameters(shared, formula.model().sharedChannels(), "shared"));
@@ -78,16 +80,67 @@ Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const Reflecta
   return create(std::move(model), std::move(description), std::move(levels));
 }
 
+namespace {
+
+DirectionWeights onlyLayer(int layer) {
+  return {{layer, layer, layer}, {1.0f, 0.0f, 0.0f}};
+}
+
+int wrapped(int place, int size) {
+  return (place % size + size) % size;
+}
+
+}  // namespace
+
+std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place,
+                                     std::vector<float>& filtered) {
+  // Registered measured views are texels, up to rounding.
+  constexpr float kRounding = 1e-3f;
+  const glm::vec2 nearest = glm::round(place);
+  const glm::vec2 low =
+      glm::all(glm::lessThan(glm::abs(place - nearest), glm::vec2(kRounding))) ? nearest : glm::floor(place);
+  const auto texel = [&](int dx, int dy) {
+    return shared.texel(wrapped(static_cast<int>(low.x) + dx, shared.width()),
+                        wrapped(static_cast<int>(low.y) + dy, shared.height()));
+  };
+  if (low == nearest && glm::all(glm::lessThan(glm::abs(place - low), glm::vec2(kRounding))))
+    return texel(0, 0);
+  const glm::vec2 upper = place - low;
+  filtered.assign(static_cast<std::size_t>(shared.channelCount()), 0.0f);
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const float weight = (dx == 1 ? upper.x : 1.0f - upper.x) * (dy == 1 ? upper.y : 1.0f - upper.y);
+      const std::span<const float> corner = texel(dx, dy);
+      for (std::size_t i = 0; i < filtered.size(); ++i) filtered[i] += weight * corner[i];
+    }
+  return filtered;
+}
+
+std::span<const float> ReflectanceField::sharedFor(int x, int y, const DirectionWeights& layers,
+                                                   glm::vec3 view, std::vector<float>& filtered) const {
+  if (model().registration().empty()) return shared().texel(x, y);
+  const glm::vec2 shift = formula_.shift(layers, view);
+  return filteredTexel(shared(), glm::vec2(x, y) + glm::vec2(shift.x, -shift.y), filtered);
+}
+
+std::span<const float> ReflectanceField::layerAt(int x, int y, int layer) const {
+  if (formula_.storedLayers() > 0) return layers().texel(x, y, layer);
+  return formula_.layerOf({}, layer);
+}
+
 glm::vec3 ReflectanceField::evaluateLayer(int x, int y, int layer, glm::vec3 light, glm::vec3 view) const {
-  return formula_.evaluate(shared().texel(x, y), layers().texel(x, y, layer), light, view);
+  return evaluate(x, y, onlyLayer(layer), light, view);
 }
 
 glm::vec3 ReflectanceField::evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light,
                                      glm::vec3 view) const {
+  std::vector<float> filtered;
+  const std::span<const float> shared = sharedFor(x, y, layers, view, filtered);
   glm::vec3 sum(0.0f);
   for (int k = 0; k < 3; ++k)
     if (layers.weight[k] > 0.0f)
-      sum += layers.weight[k] * evaluateLayer(x, y, layers.index[static_cast<std::size_t>(k)], light, view);
+      sum += layers.weight[k] *
+             formula_.evaluate(shared, layerAt(x, y, layers.index[static_cast<std::size_t>(k)]), light, view);
   return sum;
 }
 
@@ -106,12 +159,13 @@ glm::vec3 ReflectanceField::underEnvironment(int x, int y, glm::vec3 view,
     return sum;
   }
   const DirectionWeights layers = formula_.layersAround({0, 0, 1}, view);
+  std::vector<float> filtered;
+  const std::span<const float> shared = sharedFor(x, y, layers, view, filtered);
   for (int k = 0; k < 3; ++k)
     if (layers.weight[k] > 0.0f)
       sum += layers.weight[k] *
-             formula_.underEnvironment(shared().texel(x, y),
-                                       this->layers().texel(x, y, layers.index[static_cast<std::size_t>(k)]),
-                                       view, light);
+             formula_.underEnvironment(shared, layerAt(x, y, layers.index[static_cast<std::size_t>(k)]), view,
+                                       light);
   return sum;
 }
 

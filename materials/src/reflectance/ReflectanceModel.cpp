@@ -32,6 +32,16 @@ Result<std::shared_ptr<const ReflectanceModel>> ReflectanceModel::bind(
   contractBroken(__FILE__, __LINE__, "the model has tables");
 }
 
+const Registration& ReflectanceModel::registration() const {
+  static const Registration kNone;
+  return kNone;
+}
+
+void ReflectanceModel::evaluateSampled(std::span<const float>, std::span<const float>,
+                                       std::span<glm::vec3>) const {
+  contractBroken(__FILE__, __LINE__, "the model samples its layers");
+}
+
 std::vector<std::string> ReflectanceModel::sharedChannels() const {
   std::vector<std::string> channels{"R", "G", "B"};
   append(channels, sharedParameters(), colorChannels_);

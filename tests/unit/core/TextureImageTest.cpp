@@ -8,9 +8,28 @@
 namespace weft {
 namespace {
 
+TEST(TextureImage, KeepsSignedBytesInStepsOfTheir127thPart) {
+  TextureImage image(1, 1, 2, 4, TexelType::SignedByte);
+  const std::vector<float> values{-1.0f, -2.0f, 0.0f, 1.0f / 127.0f, 1.4f / 127.0f, 0.5f, 3.0f};
+  image.set(0, 0, 0, 0, values);
+  const std::vector<float> kept{-1.0f, -1.0f, 0.0f, 1.0f / 127.0f, 1.0f / 127.0f, 64.0f / 127.0f, 1.0f};
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(image.at(0, 0, i / 4, i % 4), kept[static_cast<std::size_t>(i)]) << i;
+  EXPECT_EQ(image.byteCount(), 8u);
+}
+
+TEST(TextureImage, KeepsThreeNumbersWithOneExponentInFourBytes) {
+  TextureImage image(2, 1, 1, 3, TexelType::SharedExponent);
+  const std::vector<float> values{2.9f, 0.001f, 0.5f};
+  image.set(1, 0, 0, 0, values);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(image.at(1, 0, 0, c), values[static_cast<std::size_t>(c)], 2.9f / 512) << c;
+  EXPECT_EQ(image.at(0, 0, 0, 1), 0.0f);
+  EXPECT_EQ(image.byteCount(), 8u);
+}
+
 TEST(TextureImage, KeepsFloatsAsTheyAreAndRoundsHalfs) {
   for (Precision precision : {Precision::Half, Precision::Float}) {
-    TextureImage image(3, 2, 2, 4, precision);
+    TextureImage image(3, 2, 2, 4, texelType(precision));
     const float value = 0.1f;
     image.set(2, 1, 1, 3, {&value, 1});
     EXPECT_EQ(image.at(2, 1, 1, 3), precision == Precision::Half ? roundToHalf(value) : value);
@@ -19,7 +38,7 @@ TEST(TextureImage, KeepsFloatsAsTheyAreAndRoundsHalfs) {
 }
 
 TEST(TextureImage, ValuesGoOnInTheNextLayer) {
-  TextureImage image(2, 2, 3, 4, Precision::Float);
+  TextureImage image(2, 2, 3, 4, TexelType::Float);
   const std::array values{1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f};
   image.set(1, 0, 0, 3, values);
   EXPECT_EQ(image.at(1, 0, 0, 2), 0.0f);
@@ -31,7 +50,7 @@ TEST(TextureImage, ValuesGoOnInTheNextLayer) {
 }
 
 TEST(TextureImage, BytesAreRowsOfTexelsLayerAfterLayer) {
-  TextureImage image(2, 3, 2, 1, Precision::Float);
+  TextureImage image(2, 3, 2, 1, TexelType::Float);
   float number = 0.0f;
   for (int layer = 0; layer < 2; ++layer)
     for (int y = 0; y < 3; ++y)
@@ -43,7 +62,7 @@ TEST(TextureImage, BytesAreRowsOfTexelsLayerAfterLayer) {
 }
 
 TEST(TextureImage, LevelsHalveDownToOne) {
-  TextureImage image(5, 2, 3, 2, Precision::Half, 3);
+  TextureImage image(5, 2, 3, 2, TexelType::Half, 3);
   EXPECT_EQ(image.levels(), 3);
   EXPECT_EQ(image.width(1), 2);
   EXPECT_EQ(image.height(1), 1);

@@ -53,11 +53,12 @@ ReflectanceField madeUpField(const ModelDescription& description, Precision prec
   about.fitReport = R"({"epsilon":{"linear":{"luminance":{"avg":0.0301}}},"b":[1,2],"a":null})";
   FloatImage shared = madeUpParameters(model->sharedChannels(), 1);
   FloatImage layers;
-  if (const int count = valueOf(FieldFormula::create(model, about)).layerCount(); count > 0)
+  if (const int count = valueOf(FieldFormula::create(model, about)).storedLayers(); count > 0)
     layers = madeUpParameters(model->layerChannels(), count);
   if (precision == Precision::Half) shared.roundToHalf();
   if (precision == Precision::Half && !layers.empty()) layers.roundToHalf();
-  return valueOf(ReflectanceField::create(model, about, shared, layers));
+  return valueOf(ReflectanceField::create(model, about, {{shared, layers}},
+                                          test::unevenTables(*model, static_cast<int>(about.views.size()))));
 }
 
 void expectEqual(const FloatImage& actual, const FloatImage& expected) {
@@ -105,6 +106,8 @@ TEST(ReflectanceFieldFile, KeepsEverything) {
       EXPECT_EQ(read.description().fitReport, written.description().fitReport);
       expectEqual(read.shared(), written.shared());
       expectEqual(read.layers(), written.layers());
+      ASSERT_EQ(read.tables().size(), written.tables().size());
+      for (const auto& [name, table] : written.tables()) expectEqual(read.tables().at(name), table);
     }
   EXPECT_THAT(test::namesIn(folder), testing::ElementsAre("a.rf.exr"));
 }
@@ -158,7 +161,7 @@ TEST(ReflectanceFieldFile, ARegistryWithoutTheModelSaysWhichItHas) {
   requireDone(writeReflectanceField(rampField(), path));
   EXPECT_EQ(errorOf(path), path.string() +
                                ": unknown model 'ramp' (known are rfp, lfp, ptm, rfnl, lfnl, "
-                               "laf, slaf, bump)");
+                               "laf, slaf, bump, loom)");
 }
 
 // The manifest of a file, changed in one place.

@@ -36,10 +36,12 @@ TEST(FieldTextures, HoldEveryNumberWhereShadersReadIt) {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         for (int c = 0; c < channels; ++c) {
+          const bool apart = model.filtersParameters();
           for (int i = 0; i < 3; ++i)
-            EXPECT_EQ(numberAt(textures.shared, x, y, c * sharedTexels, i), field.shared().at(x, y, i));
+            EXPECT_EQ(numberAt(apart ? textures.baseColors : textures.shared, x, y, c * sharedTexels, i),
+                      field.shared().at(x, y, i));
           for (int i = 0; i < sharedParameters; ++i)
-            EXPECT_EQ(numberAt(textures.shared, x, y, c * sharedTexels, 3 + i),
+            EXPECT_EQ(numberAt(textures.shared, x, y, c * sharedTexels, (apart ? 0 : 3) + i),
                       field.shared().at(x, y, 3 + c * sharedParameters + i));
           for (int layer = 0; layer < field.layers().layers(); ++layer)
             for (int i = 0; i < layerParameters; ++i)
@@ -54,8 +56,10 @@ TEST(FieldTextures, AreAsLargeAsGpuBytesSays) {
     for (Precision precision : {Precision::Half, Precision::Float}) {
       const ReflectanceField field = unevenField(description, precision);
       const FieldTextures textures = FieldTextures::create(field);
-      EXPECT_EQ(gpuBytes(field), textures.shared.byteCount() + textures.layers.byteCount())
-          << description.name;
+      std::uint64_t bytes = textures.shared.byteCount() + textures.layers.byteCount();
+      bytes += textures.baseColors.byteCount();
+      for (const auto& [name, table] : textures.tables) bytes += table.byteCount();
+      EXPECT_EQ(gpuBytes(field), bytes) << description.name;
     }
   // 2 lobes: 4 shared numbers, 8 a view; 3 lobes and its own albedo: 3 shared, 13 a view.
   EXPECT_EQ(gpuBytes(unevenField({})), 8u * kWidth * kHeight * (1 + 2 * 4));

@@ -10,6 +10,7 @@
 #include "weft/evaluation/TexelRun.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/FieldFormula.h"
+#include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {
 
@@ -29,8 +30,11 @@ class ErrorMeter {
   ErrorMeter(FieldFormula formula, FittedPairs pairs, const BtfDescription& measured);
 
   const FittedPairs& pairs() const { return pairs_; }
-  /// The errors of the texels of a run, over all measured pairs.
+  /// The errors of the texels of a run, over all measured pairs; of the surface's texels where the
+  /// run is registered.
   void measure(const RunParameters& parameters, TexelRun& texels, std::span<SplitErrors> errors) const;
+  /// The errors of what a field shows at the texels of a run, which is not registered.
+  void measure(const ReflectanceField& field, TexelRun& texels, std::span<SplitErrors> errors) const;
 
  private:
   // Pairs of one view that are all fitted or all held out.
@@ -42,10 +46,11 @@ class ErrorMeter {
   };
 
   std::vector<Run> findRuns() const;
-  SplitErrors measureTexel(std::span<const float> shared, std::span<const float> layers,
+  template <class SharedOf>
+  SplitErrors measureTexel(const SharedOf& sharedOf, std::span<const float> layers,
                            const TexelSamples& samples) const;
   template <class Function>
-  void forEachLayer(std::size_t direction, std::span<const float> layers, const Function& function) const;
+  void forEachLayer(std::size_t direction, const Function& function) const;
   void evaluateView(std::span<const float> shared, std::span<const float> layers, std::size_t view,
                     std::span<glm::vec3> values) const;
 

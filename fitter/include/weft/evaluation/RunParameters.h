@@ -15,7 +15,7 @@ class RunParameters {
   RunParameters(const FieldFormula& formula, int texels)
       : texels_(static_cast<std::size_t>(texels)),
         shared_(texels_ * formula.model().sharedChannels().size()),
-        layers_(texels_ * static_cast<std::size_t>(formula.layerCount()) *
+        layers_(texels_ * static_cast<std::size_t>(formula.storedLayers()) *
                 formula.model().layerChannels().size()) {}
 
   int size() const { return static_cast<int>(texels_); }

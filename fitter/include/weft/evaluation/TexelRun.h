@@ -1,35 +1,40 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "weft/evaluation/FittedPairs.h"
+#include "weft/evaluation/SampleWindow.h"
 #include "weft/evaluation/TexelSamples.h"
+#include "weft/measurement/Crop.h"
 
 namespace weft {
 
 /// A row of texels among the samples that were read.
 struct SampledRow {
-  const SampleRows& samples;
-  int sampleRow = 0;  ///< within `samples`
+  const SampleWindow& samples;
   const BtfDescription& measured;
   const FittedPairs& pairs;
-  int firstColumn = 0;  ///< of the measurement, where the row begins
-  int width = 0;
+  Crop crop;  ///< the field within the measurement
   int y = 0;  ///< the row within the field
+  /// Where a texel of the surface is seen in each measured view: that many texels away, y up.
+  /// Empty: where it is.
+  std::span<const glm::ivec2> registration{};
 };
 
-/// Neighbouring texels of one row, as fits and errors look at them. Their samples are decoded when
-/// they are asked for, once. For one thread.
+/// Neighbouring texels of one row, as fits and errors look at them: of the surface, where its views
+/// are registered. Their samples are decoded when they are asked for, once. For one thread.
 class TexelRun {
  public:
   /// How many texels a run has, but for the last of a row: few, so that their samples stay in the
   /// cache.
   static constexpr int kTexels = 8;
-  static int runsIn(int width) { return (width + kTexels - 1) / kTexels; }
+  static int runsIn(int width, int length = kTexels) { return (width + length - 1) / length; }
 
   /// The run of that number of a row, which must outlive it.
-  TexelRun(const SampledRow& row, int run);
+  TexelRun(const SampledRow& row, int run, int length = kTexels);
 
   int size() const { return static_cast<int>(measured_.size()); }
   /// Where the first texel lies in the field.
@@ -41,6 +46,8 @@ class TexelRun {
   const TexelSamples& fitted(int texel);
 
  private:
+  TexelSamples samplesOf(int texel) const;
+
   const SampledRow& row_;
   int x_;
   std::vector<std::optional<TexelSamples>> measured_;

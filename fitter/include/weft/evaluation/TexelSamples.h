@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "weft/measurement/BtfSource.h"
@@ -14,7 +15,18 @@ struct TexelSamples {
   std::vector<glm::vec3> stored;
 };
 
-/// The samples in a row and column; numbers that are none become black.
-TexelSamples texelSamples(const SampleRows& rows, const BtfDescription& measured, int row, int column);
+/// Where samples of a texel lie.
+struct SamplePlace {
+  const SampleRows* rows = nullptr;
+  int row = 0;
+  int column = 0;
+};
+
+/// The samples of a texel, which all views show at one place, or each at its own; numbers that are
+/// none become black.
+TexelSamples texelSamples(const BtfDescription& measured, std::span<const SamplePlace> places);
+inline TexelSamples texelSamples(const BtfDescription& measured, const SamplePlace& place) {
+  return texelSamples(measured, {&place, 1});
+}
 
 }  // namespace weft

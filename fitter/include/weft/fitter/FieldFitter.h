@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "weft/evaluation/RunParameters.h"
 #include "weft/evaluation/TexelRun.h"
 #include "weft/reflectance/FieldTables.h"
+#include "weft/reflectance/ReflectanceField.h"
 
 namespace weft {
 
@@ -31,11 +33,18 @@ class FieldFitter {
   /// Ends a gathering pass with what each row gave, in their order. What is made of it must depend
   /// on nothing else: every process makes it for itself.
   virtual Result<void> endPass(int pass, std::span<const std::vector<double>> ofRows);
+  /// How far from where it is each fitted view shows a texel of the surface, in texels, y up: the
+  /// passes after it is known, and fit(), are given the surface's texels. Empty: where they are.
+  virtual std::vector<glm::ivec2> registration() const { return {}; }
   /// What all texels share, by name; complete after the last gathering pass.
   virtual FieldTables tables() const { return {}; }
 
+  /// How many texels fit() takes best at once.
+  virtual int texelsAtOnce() const { return TexelRun::kTexels; }
   /// Fits the texels of a run, base colours included; every number written is finite. Thread safe.
   virtual void fit(TexelRun& texels, RunParameters& parameters) const = 0;
+  /// The levels of a field, from what fit() gave; of the finest alone by default.
+  virtual std::vector<FieldLevel> levels(FieldLevel finest) const;
 };
 
 /// The sum of what rows gave, which are of equal length, in the order of rows.

@@ -19,6 +19,8 @@ struct FitProblem {
   bool weighted = true;        ///< false: all weights are equal, plain least squares
   std::shared_ptr<const ReflectanceModel> model;
   Encoding encoding = Encoding::Linear;  ///< of the stored samples
+  int width = 1;                         ///< of the field, in texels
+  int height = 1;
 };
 
 /// Fits the numbers of one texel to its samples: one class a model whose texels share nothing.

@@ -11,7 +11,8 @@
 
 namespace weft {
 
-/// What is between the centres of texels.
+/// What is between the centres of texels. Where the hardware filters a model's parameters
+/// (BTFTextures::filtersParameters()), Bilinear also filters between levels, for one texel's work.
 enum class TexelFilter {
   Nearest,   ///< the nearest texel: fast, with edges where texels are larger than pixels
   Bilinear,  ///< the results of the four nearest texels, mixed: four times the work

@@ -40,6 +40,8 @@ class BTFTextures {
   const ShaderSource& source() const { return source_; }
   /// The uniform block, likewise.
   const FieldBlock& block() const { return block_; }
+  /// Whether the hardware filters the parameters, over all levels.
+  bool filtersParameters() const { return filtersParameters_; }
   /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula
   /// for it.
   int environmentLights() const { return environmentLights_; }
@@ -54,6 +56,7 @@ class BTFTextures {
   ShaderSource source_;
   FieldBlock block_;
   int environmentLights_ = 0;
+  bool filtersParameters_ = false;
 };
 
 }  // namespace weft

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -31,6 +32,8 @@ struct ReflectanceFieldDescription {
 struct ModelledLights {
   std::vector<glm::vec3> directions;
   std::vector<float> factors;  ///< of the model's values; 0 below the horizon
+  /// A layer each: ReflectanceModel::sampledLayer(); empty where layers are the texels' own.
+  std::vector<std::vector<float>> layers{};
 };
 
 /// How the numbers of a texel become a value: the model, the cosine and the interpolation between
@@ -43,8 +46,15 @@ class FieldFormula {
                                      const ReflectanceFieldDescription& description);
 
   const ReflectanceModel& model() const { return *model_; }
-  /// How many layers a field of this formula has.
+  /// How many directions there are that values are interpolated between.
   int layerCount() const { return layerCount_; }
+  /// For how many of them each texel has numbers of its own: all, or none.
+  int storedLayers() const { return layersAreCommon_ ? 0 : layerCount_; }
+  /// The numbers of one layer, of those that a texel has of all its stored layers.
+  std::span<const float> layerOf(std::span<const float> storedLayers, int layer) const;
+  /// What is seen of a surface at a place, in texels, from a view between these layers: the place
+  /// plus this; x along columns, y up.
+  glm::vec2 shift(const DirectionWeights& layers, glm::vec3 view) const;
   /// Between the directions of the layers.
   const HemisphereTriangulation& triangulation() const { return triangulation_; }
   /// The z of the outermost measured lights above the horizon: where a model that has the cosine
@@ -62,8 +72,8 @@ class FieldFormula {
   /// ring as on it, at its own azimuth.
   glm::vec3 evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
                      glm::vec3 view) const;
-  /// The same for many lights and one view.
-  void evaluateLights(std::span<const float> shared, std::span<const float> layer,
+  /// The same for many lights and one view, from the numbers of a texel's stored layers.
+  void evaluateLights(std::span<const float> shared, std::span<const float> storedLayers, int layer,
                       const ModelledLights& lights, glm::vec3 view, std::span<glm::vec3> values) const;
   ModelledLights modelledLights(std::span<const glm::vec3> lights) const;
   /// Whether light of an environment is integrated by the model's own formula; else quadrature() is
@@ -85,6 +95,7 @@ class FieldFormula {
   std::size_t sharedNumbers_ = 0;
   std::size_t layerNumbers_ = 0;
   int layerCount_ = 0;
+  bool layersAreCommon_ = false;
   bool hasCosine_ = false;
   Encoding encoding_ = Encoding::Linear;
   float lowestLightZ_ = 0.0f;

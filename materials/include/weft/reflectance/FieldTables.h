@@ -19,8 +19,9 @@ using FieldTables = std::map<std::string, FloatImage>;
 struct ModelTable {
   std::string name;  ///< letters, digits and '_', also of the GLSL's define TABLE_NAME
   std::vector<std::string> channels;
-  int width = 0;   ///< 0: any
-  int height = 0;  ///< likewise
+  int width = 0;            ///< 0: any
+  int height = 0;           ///< likewise
+  bool isFiltered = false;  ///< the GLSL looks between its texels
 };
 
 /// The model that evaluates with these tables; a model without tables itself. Fails where a table

@@ -13,17 +13,21 @@
 namespace weft {
 
 /// A field's parameters as textures for a GPU. With FieldProgram the one place that knows how they
-/// lie in texels; shaders/fetch.glsl reads them.
+/// lie in texels; shaders/fetch_texel.glsl reads them.
 ///
 /// They have the field's levels. Both are arrays of RGBA texels, as precise as the field. A colour
 /// channel has sharedTexels() of them for all layers, one after another: the base colour, and from
 /// its alpha on the shared numbers. Of each layer it has layerTexels(), the numbers padded to whole
 /// texels. Colour channels follow one another, then layers.
+///
+/// Where the hardware filters a model's parameters, its shared numbers are bytes, from the first
+/// component on, and base colours a texture of their own: shaders/fetch_filtered.glsl reads them.
 struct FieldTextures {
   TextureImage shared;
   TextureImage layers;  ///< empty for a model without layers
   /// ReflectanceModel::prepareForEnvironments(); empty where not asked for
   TextureImage preparedLayers;
+  TextureImage baseColors;  ///< where parameters are filtered
   /// By name, their channels as shared numbers are packed, from the first component on.
   std::map<std::string, TextureImage> tables{};
 
@@ -40,7 +44,7 @@ struct FieldTextures {
 /// Bytes of the textures that create() makes of a field, not prepared for environments.
 std::uint64_t gpuBytes(const ReflectanceField& field);
 
-/// The uniform block `ReflectanceField` of shaders/fetch.glsl, std140.
+/// The uniform block `ReflectanceField` of shaders/field_block.glsl, std140.
 struct FieldBlock {
   glm::vec2 textureScale{1.0f};  ///< repetitions per unit of texture coordinates
   float lowestLightZ = 0.0f;     ///< FieldFormula's

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "weft/core/FloatImage.h"
@@ -52,8 +54,10 @@ class ReflectanceField {
   const std::vector<FieldLevel>& levels() const { return levels_; }
   const FieldTables& tables() const { return *tables_; }
 
-  /// The value of one texel of level 0, n.l included, of one layer alone; 0 for lights below the
-  /// horizon. `layer` does not matter for a model without layers.
+  /// What is seen at one texel of level 0, n.l included, by one layer alone; 0 for lights below the
+  /// horizon. `layer` does not matter for a model without layers. Of a registered model that is
+  /// another texel of the surface, and where the view lies between measured ones one between
+  /// texels.
   glm::vec3 evaluateLayer(int x, int y, int layer, glm::vec3 light, glm::vec3 view) const;
   /// The same interpolated between three layers with the given weights.
   glm::vec3 evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const;
@@ -61,15 +65,27 @@ class ReflectanceField {
   glm::vec3 evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const;
   /// What one texel shows of an environment, radiance: the CPU reference of shaders/btf.frag.
   glm::vec3 underEnvironment(int x, int y, glm::vec3 view, const EnvironmentIntegrals& light) const;
+  /// The shared numbers of what is seen at a texel of level 0 from a view.
+  std::span<const float> sharedSeenAt(int x, int y, glm::vec3 view, std::vector<float>& filtered) const {
+    return sharedFor(x, y, formula_.layersAround(view, view), view, filtered);
+  }
 
  private:
   explicit ReflectanceField(FieldFormula formula) : formula_(std::move(formula)) {}
+  std::span<const float> sharedFor(int x, int y, const DirectionWeights& layers, glm::vec3 view,
+                                   std::vector<float>& filtered) const;
+  std::span<const float> layerAt(int x, int y, int layer) const;
 
   FieldFormula formula_;
   ReflectanceFieldDescription description_;
   std::vector<FieldLevel> levels_;
   std::shared_ptr<const FieldTables> tables_;
 };
+
+/// The shared numbers at a place in texels, where the centre of the first is at 0, 0: filtered
+/// between the four around it; the image repeats. `filtered` is where they are left unless the
+/// place is a texel's.
+std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place, std::vector<float>& filtered);
 
 /// The side of level `level` where that of level 0 is `side`.
 int sideOfLevel(int side, int level);

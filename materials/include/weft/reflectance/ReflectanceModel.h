@@ -12,6 +12,7 @@
 #include "weft/reflectance/EnvironmentIntegrals.h"
 #include "weft/reflectance/FieldTables.h"
 #include "weft/reflectance/ModelOptions.h"
+#include "weft/reflectance/Registration.h"
 
 namespace weft {
 
@@ -45,6 +46,9 @@ class ReflectanceModel {
   virtual std::vector<std::string> sharedParameters() const { return {}; }
   /// Names of one layer's numbers, likewise.
   virtual std::vector<std::string> layerParameters() const { return {}; }
+  /// Whether light is linear in the shared numbers, so that they may be filtered between texels and
+  /// averaged for coarser levels. They lie in -1..1 then, and a GPU keeps a byte of each.
+  virtual bool filtersParameters() const { return false; }
   /// The tables that it evaluates with.
   virtual std::vector<ModelTable> tables() const { return {}; }
   /// This model with its tables, which are all there and of the declared shapes (boundModel()).
@@ -52,6 +56,11 @@ class ReflectanceModel {
   /// contents that are none.
   virtual Result<std::shared_ptr<const ReflectanceModel>> bind(
       std::shared_ptr<const FieldTables> tables) const;
+  /// The numbers of a layer that all texels share, for models without layerParameters(), once
+  /// bound; empty where there are none.
+  virtual std::span<const float> commonLayer(int) const { return {}; }
+  /// How its texels move with the view, once bound.
+  virtual const Registration& registration() const;
   /// What the base colour is multiplied by for unit directions in the tangent frame, clamped at 0
   /// (conventions.md, "Clamp"); with or without n.l, as the fit was made. Spans are as long as the
   /// lists of names.
@@ -62,6 +71,13 @@ class ReflectanceModel {
   virtual void evaluateLights(std::span<const float> shared, std::span<const float> layer,
                               std::span<const glm::vec3> lights, glm::vec3 view,
                               std::span<float> values) const;
+  /// A common layer's numbers for some lights alone, from which evaluateSampled() is quicker.
+  virtual std::vector<float> sampledLayer(std::span<const float>, std::span<const glm::vec3>) const {
+    return {};
+  }
+  /// evaluateColors() with what sampledLayer() gave.
+  virtual void evaluateSampled(std::span<const float> shared, std::span<const float> sampled,
+                               std::span<glm::vec3> colors) const;
   /// Whether underEnvironment() and the GLSL function of the same name exist. Fields of other
   /// models are summed over their measured lights (LightQuadrature).
   virtual bool integratesEnvironments() const { return false; }
@@ -88,14 +104,15 @@ class ReflectanceModel {
   std::vector<std::string> layerChannels() const;
   /// evaluate() for every colour channel, times the base colour. Spans are as long as the lists of
   /// channels.
-  glm::vec3 evaluateColor(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
-                          glm::vec3 view) const;
+  virtual glm::vec3 evaluateColor(std::span<const float> shared, std::span<const float> layer,
+                                  glm::vec3 light, glm::vec3 view) const;
   /// The same for many lights and one view.
-  void evaluateColors(std::span<const float> shared, std::span<const float> layer,
-                      std::span<const glm::vec3> lights, glm::vec3 view, std::span<glm::vec3> colors) const;
+  virtual void evaluateColors(std::span<const float> shared, std::span<const float> layer,
+                              std::span<const glm::vec3> lights, glm::vec3 view,
+                              std::span<glm::vec3> colors) const;
   /// underEnvironment() likewise: each colour channel of a fit in RGB has numbers of its own.
-  glm::vec3 colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer, glm::vec3 view,
-                                  const EnvironmentIntegrals& light) const;
+  virtual glm::vec3 colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer,
+                                          glm::vec3 view, const EnvironmentIntegrals& light) const;
 
  protected:
   /// The direction that varies within a layer.

@@ -1,0 +1,92 @@
+// The model `loom`: LoomModel.h has the formula.
+
+// a square a view, side by side
+layout(binding = TABLE_light_maps) uniform sampler2DArray lightMaps;
+// a texel a view: its deviation, and the height (Registration.h)
+layout(binding = TABLE_registration) uniform sampler2DArray registration;
+
+// Towards the view from a surface at height 1 (FieldFormula::shift()).
+vec2 tangentOf(vec3 view) {
+  return view.xy / max(view.z, 1e-3);
+}
+
+// How much of a shift may be made. On bent surfaces it changes from place to place, and where it
+// changes by more than the place does, the texture would run backwards: half of that is allowed. On
+// a sphere what is left grows steadily up to the silhouette.
+float shareOfShift(Place place, vec2 shift) {
+  vec2 size = vec2(fieldSize());
+  mat2 places = mat2(place.toRight * size, place.upwards * size);
+  mat2 shifts = mat2(dFdx(shift), dFdy(shift));
+  float area = abs(determinant(places));
+  // The cofactors of `places`, so that nothing is divided by an area of 0.
+  mat2 change = shifts * mat2(places[1][1], -places[0][1], -places[1][0], places[0][0]);
+  float largest = sqrt(dot(change[0], change[0]) + dot(change[1], change[1]));
+  return 2.0 * largest > area ? area / (2.0 * largest) : 1.0;
+}
+
+Place seenAt(Place place, LayerWeights layers, vec3 view) {
+  float height = texelFetch(registration, ivec3(0), 0).b;
+  vec2 shift = height * tangentOf(notBelow(view, lowestViewZ));
+  for (int k = 0; k < 3; ++k)
+    if (layers.weight[k] > 0.0)
+      shift += layers.weight[k] * texelFetch(registration, ivec3(layers.index[k], 0, 0), 0).rg;
+  shift *= shareOfShift(place, height * tangentOf(view));
+  place.texcoord += vec2(shift.x, -shift.y) / vec2(fieldSize());
+  return place;
+}
+
+// LightMap.h: the place of a light in a view's map.
+vec2 lightMapPlace(vec3 light, int view) {
+  vec2 size = vec2(textureSize(lightMaps, 0).xy);
+  vec2 disc = clamp(light.xy * inversesqrt(1.0 + max(light.z, 0.0)), -1.0, 1.0);
+  vec2 place = (0.5 * disc + 0.5) * (size.y - 1.0) + 0.5;
+  return vec2(place.x + float(view) * size.y, place.y) / size;
+}
+
+// What hue adds to a colour whose luminance stays.
+vec3 hueOf(float red, float blue) {
+  return vec3(red, -(0.2126 * red + 0.0722 * blue) / 0.7152, blue);
+}
+
+// Linear RGB, without n.l.
+vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
+  vec2 place = lightMapPlace(light, layer.index);
+  float y = 0.0;
+  for (int i = 0; i < COMPONENTS / 4; ++i)
+    y += dot(texel.weights[i], textureLod(lightMaps, vec3(place, i), 0.0));
+  vec4 hue = textureLod(lightMaps, vec3(place, COMPONENTS / 4), 0.0);
+  float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
+  // What components reflect is not told apart: it counts as diffuse.
+  return diffusePart * max(y * texel.baseColor + hueOf(red, blue), 0.0);
+}
+
+#ifdef ENVIRONMENT
+// a row a view; along it the terms of LoomModel::kTerms
+layout(binding = TABLE_light_polynomials) uniform sampler2DArray lightPolynomials;
+
+void prepareEnvironment(inout EnvironmentFrame frame) {
+  fetchMoments(frame);
+}
+
+// What four channels of the maps reflect of red, green and blue light.
+mat3x4 reflectedOf(int channels, int firstTerm, int view, EnvironmentFrame frame) {
+  mat3x4 sum = mat3x4(0.0);
+  for (int term = firstTerm; term < 6; ++term) {
+    vec4 factors = texelFetch(lightPolynomials, ivec3(term, view, channels), 0);
+    vec3 moment = frame.moments[term];
+    sum += mat3x4(moment.r * factors, moment.g * factors, moment.b * factors);
+  }
+  return sum;
+}
+
+vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
+  vec3 y = vec3(0.0);
+  for (int i = 0; i < COMPONENTS / 4; ++i)
+    y += texel.weights[i] * reflectedOf(i, i < QUADRATIC / 4 ? 0 : 3, layer.index, frame);
+  mat3x4 hue = reflectedOf(COMPONENTS / 4, 0, layer.index, frame);
+  vec2 weights = texel.weights[0].xy;
+  float green = hueOf(dot(weights, hue[1].xy), dot(weights, hue[1].zw)).g;
+  vec3 color = vec3(dot(weights, hue[0].xy), green, dot(weights, hue[2].zw));
+  return diffusePart * max(y * texel.baseColor + color, 0.0);
+}
+#endif
