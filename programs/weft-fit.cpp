@@ -54,7 +54,7 @@ void addOptions(Tool& tool, Arguments& a) {
   tool.addOutput("-o", a.output, "the .rf.exr to write")->required();
   app.add_option(
          "--model", a.model,
-         a.modelOptions.helpOfNames("what to fit [rfnl; of one view what suits its number of lights]:"))
+         a.modelOptions.helpOfNames("what to fit [loom; of one view what suits its number of lights]:"))
       ->check(CLI::IsMember(a.modelOptions.registry().names()));
   a.modelOptions.addTo(app);
   app.add_option("--cosine", a.cosine,

@@ -91,7 +91,7 @@ TEST(FitCommand, TakesTheModelThatSuitsTheLightsOfOneView) {
   EXPECT_EQ(modelOf({"--lobes", "1"}), "rfnl");
   EXPECT_EQ(modelOf({"--model", "ptm"}), "ptm");
   EXPECT_THAT(runProgram("weft-fit", {clothZip(folder), "-o", field}).out,
-              testing::StartsWith("model rfnl, because of 81 views (--model takes another)\n"));
+              testing::StartsWith("model loom, because of 81 views (--model takes another)\n"));
 }
 
 TEST(FitCommand, EqualInputGivesEqualBytesOnAnyNumberOfThreads) {
@@ -164,6 +164,7 @@ TEST(FitCommand, ResumesNoOtherMeasurement) {
   const fs::path field = folder / "cloth.rf.exr";
   const auto source = test::valueOf(openBtf(zip));
   FitOptions options;
+  options.model.name = "loom";
   options.partsFolder = field.string() + ".parts";
   options.secondsBetweenSaves = 0.0;
   test::requireDone(test::valueOf(FieldFit::create(*source, options)).fitRows(0, 2, {}));

@@ -30,7 +30,7 @@ bool canBeFitted(const std::string& name, const std::vector<glm::vec3>& views,
 }  // namespace
 
 DefaultModel defaultModel(const BtfDescription& measured) {
-  if (measured.views.size() != 1) return {"rfnl", fmt::format("{} views", measured.views.size())};
+  if (measured.views.size() != 1) return {"loom", fmt::format("{} views", measured.views.size())};
   std::vector<glm::vec3> lights = measured.lights;
   std::erase_if(lights, [](glm::vec3 light) { return light.z <= 0.0f; });
   const std::string reason = fmt::format("{} lights of one view", lights.size());

@@ -5,6 +5,7 @@
 #include "TexelFieldFitter.h"
 #include "models/BumpFitter.h"
 #include "models/LafFitter.h"
+#include "models/LoomFitter.h"
 #include "models/RfnlFitter.h"
 #include "models/RfpFitter.h"
 
@@ -20,6 +21,7 @@ FitterRegistry FitterRegistry::builtin() {
   registry.add("laf", LafFitter::create);
   registry.add("slaf", LafFitter::create);
   registry.add("bump", BumpFitter::create);
+  registry.add("loom", LoomFitter::create);
   return registry;
 }
 

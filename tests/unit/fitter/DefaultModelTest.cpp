@@ -46,10 +46,10 @@ TEST(DefaultModel, OfTooFewLightsIsRefusedByItsFitter) {
   EXPECT_EQ(defaultModel(dome(4)).name, "ptm");
 }
 
-TEST(DefaultModel, OfSeveralViewsIsRfnl) {
+TEST(DefaultModel, OfSeveralViewsIsLoom) {
   BtfDescription measured = dome(6);
   measured.views.push_back({1, 0, 0});
-  EXPECT_EQ(defaultModel(measured).name, "rfnl");
+  EXPECT_EQ(defaultModel(measured).name, "loom");
 }
 
 }  // namespace

@@ -171,11 +171,6 @@ HWY_EXPORT(addGramHere);
 HWY_EXPORT(valuesHere);
 HWY_EXPORT(correlationsHere);
 
-AlignedFloats::AlignedFloats(std::size_t count)
-    : size_(padded(count)), floats_(hwy::AllocateAligned<float>(size_)) {
-  std::fill_n(floats_.get(), size_, 0.0f);
-}
-
 LafPoints::LafPoints(std::span<const glm::vec3> points)
     : x(points.size()), y(points.size()), z(points.size()) {
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,0 +1,142 @@
+#include "solvers/LoomLevels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Sums of texels on the way to coarser levels: weights, then red, green, blue times weights.
+struct Sums {
+  int width = 0;
+  int height = 0;
+  std::size_t numbers = 0;
+  std::vector<float> values;
+
+  float* of(int x, int y) {
+    return values.data() +
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               numbers;
+  }
+  const float* of(int x, int y) const { return const_cast<Sums*>(this)->of(x, y); }
+};
+
+Sums sumsOf(const FloatImage& shared) {
+  const std::size_t components = static_cast<std::size_t>(shared.channelCount()) - 3;
+  Sums sums{shared.width(), shared.height(), 4 * components, {}};
+  sums.values.reserve(shared.values().size() * 4);
+  for (int y = 0; y < shared.height(); ++y)
+    for (int x = 0; x < shared.width(); ++x) {
+      const std::span<const float> texel = shared.texel(x, y);
+      for (const float factor : {1.0f, texel[0], texel[1], texel[2]})
+        for (std::size_t k = 0; k < components; ++k) sums.values.push_back(factor * texel[3 + k]);
+    }
+  return sums;
+}
+
+/// Which finer texels a coarser one covers along an axis, and how much of each; the shares add up
+/// to 1.
+struct Cover {
+  int first = 0;
+  std::vector<float> shares;
+};
+
+Cover coverOf(int texel, int coarse, int fine) {
+  const double from = static_cast<double>(texel) * fine / coarse;
+  const double to = static_cast<double>(texel + 1) * fine / coarse;
+  Cover cover{static_cast<int>(from), {}};
+  for (int i = cover.first; i < to && i < fine; ++i) {
+    const double covered = std::min(to, i + 1.0) - std::max(from, static_cast<double>(i));
+    if (covered <= 1e-9) continue;
+    cover.shares.push_back(static_cast<float>(covered / (to - from)));
+  }
+  return cover;
+}
+
+Sums halved(const Sums& fine) {
+  Sums coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.numbers, {}};
+  coarse.values.resize(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height) *
+                       fine.numbers);
+  tbb::parallel_for(0, coarse.height, [&](int y) {
+    const Cover rows = coverOf(y, coarse.height, fine.height);
+    for (int x = 0; x < coarse.width; ++x) {
+      const Cover columns = coverOf(x, coarse.width, fine.width);
+      float* sum = coarse.of(x, y);
+      for (std::size_t j = 0; j < rows.shares.size(); ++j)
+        for (std::size_t i = 0; i < columns.shares.size(); ++i) {
+          const float* from = fine.of(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
+          for (std::size_t n = 0; n < fine.numbers; ++n)
+            sum[n] += rows.shares[j] * columns.shares[i] * from[n];
+        }
+    }
+  });
+  return coarse;
+}
+
+double product(const float* a, std::span<const double> gram, const float* b, std::size_t components) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < components; ++i) {
+    double row = 0.0;
+    for (std::size_t k = 0; k < components; ++k) row += gram[i * components + k] * double{b[k]};
+    sum += double{a[i]} * row;
+  }
+  return sum;
+}
+
+glm::vec3 colorOf(const float* sums, std::span<const double> gram, std::size_t components) {
+  const double squares = product(sums, gram, sums, components);
+  if (!(squares > 0.0)) return glm::vec3(1.0f);
+  glm::vec3 color;
+  for (int c = 0; c < 3; ++c)
+    color[c] = static_cast<float>(
+        product(sums + static_cast<std::size_t>(c + 1) * components, gram, sums, components) / squares);
+  return color;
+}
+
+}  // namespace
+
+std::vector<double> weightedGram(std::span<const float> terms, std::size_t components,
+                                 std::span<const float> squaredWeights) {
+  const std::size_t pairs = terms.size() / components;
+  std::vector<double> ofPair(pairs);
+  for (std::size_t i = 0; i < squaredWeights.size(); ++i) ofPair[i % pairs] += double{squaredWeights[i]};
+  std::vector<double> gram(components * components);
+  tbb::parallel_for(std::size_t{0}, components, [&](std::size_t i) {
+    for (std::size_t pair = 0; pair < pairs; ++pair)
+      for (std::size_t k = 0; k < components; ++k)
+        gram[i * components + k] +=
+            ofPair[pair] * double{terms[pair * components + i]} * double{terms[pair * components + k]};
+  });
+  return gram;
+}
+
+std::vector<FieldLevel> loomLevels(FieldLevel finest, std::span<const double> gram,
+                                   const std::function<float(float)>& roundWeight,
+                                   const std::function<glm::vec3(glm::vec3)>& roundColor) {
+  const std::vector<std::string> channels = finest.shared.channels();
+  const Precision precision = finest.shared.precision();
+  const std::size_t components = channels.size() - 3;
+  Sums sums = sumsOf(finest.shared);
+  std::vector<FieldLevel> levels;
+  levels.push_back(std::move(finest));
+  while (sums.width > 1 || sums.height > 1) {
+    sums = halved(sums);
+    FloatImage shared(sums.width, sums.height, channels);
+    tbb::parallel_for(0, sums.height, [&](int y) {
+      for (int x = 0; x < sums.width; ++x) {
+        const std::span<float> texel = shared.texel(x, y);
+        const float* from = sums.of(x, y);
+        const glm::vec3 color = roundColor(colorOf(from, gram, components));
+        for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = color[c];
+        for (std::size_t k = 0; k < components; ++k) texel[3 + k] = roundWeight(from[k]);
+      }
+    });
+    if (precision == Precision::Half) shared.roundToHalf();
+    levels.push_back({std::move(shared), {}});
+  }
+  return levels;
+}
+
+}  // namespace weft
