@@ -119,6 +119,16 @@ function(weft_program name source)
   endif()
 endfunction()
 
+# What the tests include most, compiled once for all of them.
+function(weft_test_headers)
+  file(WRITE ${PROJECT_BINARY_DIR}/none.cpp "int main() {}\n")
+  add_executable(weft_test_headers EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/none.cpp)
+  target_link_libraries(weft_test_headers PRIVATE GTest::gtest GTest::gmock weft_options)
+  target_compile_options(weft_test_headers PRIVATE ${WEFT_LIGHT_OPTIMISATION})
+  target_precompile_headers(weft_test_headers PRIVATE
+    <gmock/gmock.h> <filesystem> <fstream> <functional> <map>)
+endfunction()
+
 # weft_test(NAME FOLDER LABEL libraries...)
 # A GoogleTest program from FOLDER/*.cpp, every test of it known to ctest, under a label.
 function(weft_test name folder label)
@@ -127,8 +137,7 @@ function(weft_test name folder label)
   target_link_libraries(${name} PRIVATE ${ARGN} weft_test_support weft_test_main GTest::gmock
                         weft_options)
   target_compile_options(${name} PRIVATE ${WEFT_LIGHT_OPTIMISATION})
-  target_precompile_headers(${name} PRIVATE
-    <gmock/gmock.h> <filesystem> <fstream> <functional> <map>)
+  target_precompile_headers(${name} REUSE_FROM weft_test_headers)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES
     TIMEOUT 300 LABELS ${label} ENVIRONMENT LIBGL_ALWAYS_SOFTWARE=true)
 endfunction()

@@ -34,6 +34,8 @@ Json describe(const weft::ReflectanceField& field) {
   model["shared_channels"] = field.shared().channels();
   model["layer_channels"] = field.layers().channels();
   for (const auto& [name, table] : field.tables()) model["tables"].push_back(name);
+  if (const weft::Registration& registration = field.model().registration(); !registration.empty())
+    model["relief_height"] = registration.height;  // in texels
   return {{"kind", "reflectance field"},
           {"name", description.source},
           {"width", field.width()},

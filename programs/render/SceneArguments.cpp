@@ -104,9 +104,9 @@ void SceneArguments::addTo(CLI::App& options) {
       ->check(CLI::IsMember({1, 3}))
       ->capture_default_str();
   options
-      .add_option(
-          "--filter", filter,
-          "what is between texels: nearest, or bilinear, which is smooth and costs four times as much")
+      .add_option("--filter", filter,
+                  "what is between texels: nearest, or bilinear, which is smooth, costs most models four "
+                  "times as much, and shows the coarser levels of loom")
       ->check(CLI::IsMember({"nearest", "bilinear"}))
       ->capture_default_str();
   options.add_option("--env", environment,

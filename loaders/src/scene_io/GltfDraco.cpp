@@ -61,7 +61,7 @@ bool readClaims(draco::DecoderBuffer buffer, Claims& claims) {
   if (!claims.isSequential && header.encoder_method != draco::MESH_EDGEBREAKER_ENCODING) return false;
   if (header.encoder_type != draco::TRIANGULAR_MESH || header.version_major != 2 || header.version_minor != 2)
     return false;
-  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(2, 2));
   draco::GeometryMetadata metadata;
   if ((header.flags & METADATA_FLAG_MASK) != 0 &&
       !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))

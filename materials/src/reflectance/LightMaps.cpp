@@ -114,13 +114,9 @@ Rows splineWeights(const Points& points, const Points& lights) {
 Rows samplingWeights(std::span<const glm::vec3> lights, int size) {
   Rows weights = Rows::Zero(static_cast<Eigen::Index>(lights.size()), Eigen::Index{size} * size);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const glm::vec2 at = lightMapPlace(lights[i], size);
-    const glm::ivec2 corner = glm::clamp(glm::ivec2(at), glm::ivec2(0), glm::ivec2(size - 2));
-    const glm::dvec2 part = at - glm::vec2(corner);
-    for (int y = 0; y < 2; ++y)
-      for (int x = 0; x < 2; ++x)
-        weights(static_cast<Eigen::Index>(i), Eigen::Index{corner.y + y} * size + corner.x + x) =
-            (x == 1 ? part.x : 1.0 - part.x) * (y == 1 ? part.y : 1.0 - part.y);
+    const LightMapTexels texels = lightMapTexels(lights[i], size);
+    for (int corner = 0; corner < 4; ++corner)
+      weights(static_cast<Eigen::Index>(i), texels.index[corner]) += double{texels.weight[corner]};
   }
   return weights;
 }

@@ -302,7 +302,7 @@ TEST(BtfSource, RefusesWhatIsNoImage) {
 TEST(BtfSource, RefusesATruncatedImage) {
   const fs::path folder = makeFolder();
   test::Bytes bytes = test::bytesOf(anImageOf(folder));
-  bytes.resize(bytes.size() - 30);
+  bytes.erase(bytes.end() - 30, bytes.end());
   test::writeBytes(anImageOf(folder), bytes);
   EXPECT_THAT(errorOfReading(folder), HasSubstr("tl075_pl345_tv030_pv090.png: the PNG is damaged"));
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -30,14 +30,16 @@ std::vector<std::size_t> aboveHorizon(const std::vector<glm::vec3>& lights) {
 }
 
 bool spanSpace(const std::vector<glm::vec3>& lights, const std::vector<std::size_t>& chosen) {
-  Eigen::MatrixX3f directions(static_cast<Eigen::Index>(chosen.size()), 3);
-  for (Eigen::Index row = 0; row < directions.rows(); ++row) {
-    const glm::vec3 light = lights[chosen[static_cast<std::size_t>(row)]];
-    directions.row(row) << light.x, light.y, light.z;
+  constexpr double kFlattest = 0.01;  // of singular values, the smallest by the largest
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+  for (const std::size_t i : chosen) {
+    const Eigen::Vector3d light(lights[i].x, lights[i].y, lights[i].z);
+    gram += light * light.transpose();
   }
-  Eigen::JacobiSVD<Eigen::MatrixX3f> svd(directions);
-  svd.setThreshold(0.01f);
-  return svd.rank() == 3;
+  const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                                      .computeDirect(gram, Eigen::EigenvaluesOnly)
+                                      .eigenvalues();
+  return squares[0] > kFlattest * kFlattest * squares[2];
 }
 
 // Cauchy's: the squares of errors below `scale`; shadows and highlights, far above it, hardly

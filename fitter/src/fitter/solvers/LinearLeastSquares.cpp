@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "weft/core/Contract.h"
 
@@ -37,9 +36,9 @@ Eigen::Map<Eigen::MatrixXf> columnsFor(std::span<float> solutions, Eigen::Index 
 }  // namespace
 
 std::optional<LinearLeastSquares> LinearLeastSquares::create(const Eigen::MatrixXd& terms) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(terms);
-  svd.setThreshold(1e-4);
-  if (svd.rank() < terms.cols()) return std::nullopt;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(terms);
+  decomposition.setThreshold(1e-4);
+  if (decomposition.rank() < terms.cols()) return std::nullopt;
   return LinearLeastSquares(terms);
 }
 
