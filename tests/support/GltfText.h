@@ -12,9 +12,8 @@ class BufferBytes {
  public:
   template <class Number>
   BufferBytes& add(const std::vector<Number>& numbers) {
-    const std::size_t offset = bytes_.size();
-    bytes_.resize(offset + numbers.size() * sizeof(Number));
-    std::memcpy(bytes_.data() + offset, numbers.data(), numbers.size() * sizeof(Number));
+    const auto* first = reinterpret_cast<const std::uint8_t*>(numbers.data());
+    bytes_.insert(bytes_.end(), first, first + numbers.size() * sizeof(Number));
     return *this;
   }
 
