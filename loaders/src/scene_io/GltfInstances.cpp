@@ -1,5 +1,7 @@
 #include "GltfInstances.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -30,10 +32,10 @@ Result<std::size_t> instanceCount(const GltfFile& file, const tinygltf::Value& a
   for (const std::string& name : attributes.Keys()) {
     WEFT_TRY(const std::size_t length, countOf(file, attributes.Get(name).GetNumberAsInt()));
     if (count && *count != length)
-      return file.fail(std::string("the attributes of ") + kInstancingExtension + " differ in length");
+      return file.fail(fmt::format("the attributes of {} differ in length", kInstancingExtension));
     count = length;
   }
-  if (!count) return file.fail(std::string(kInstancingExtension) + " has no attributes");
+  if (!count) return file.fail(fmt::format("{} has no attributes", kInstancingExtension));
   WEFT_TRY_VOID(file.checkMemory(*count * sizeof(glm::mat4) * 2, kInstancingExtension));
   return *count;
 }

@@ -22,6 +22,8 @@ namespace weft {
 namespace {
 
 constexpr int kWindowSide = 128;
+// Smaller samples are registered as if they repeated: without what wraps little would be left.
+constexpr int kSmallestWindow = 48;
 constexpr std::size_t kWindowLights = 12;
 constexpr std::size_t kHueNumbers = 4;
 
@@ -96,7 +98,8 @@ void LoomFitter::registerWindow(std::span<const std::vector<double>> ofRows) {
                          .views = problem_.views,
                          .lights = static_cast<int>(windowLights_.size()),
                          .values = {},
-                         .wraps = window_.width == problem_.width && window_.height == problem_.height};
+                         .wraps = std::min(problem_.width, problem_.height) < kSmallestWindow &&
+                                  window_.width == problem_.width && window_.height == problem_.height};
   std::vector<float> values(ofTexel);
   for (const std::vector<double>& row : ofRows)
     for (std::size_t at = 0; at < row.size(); at += packedSize(ofTexel)) {
