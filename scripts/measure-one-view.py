@@ -14,8 +14,8 @@ import tempfile
 from pathlib import Path
 
 MODELS = ["ptm", "rfp", "bump", "rfnl --lobes 1", "rfnl --lobes 2"]
-COUNTS = [6, 8, 10, 12, 16, 24, 32, 40]
-SIDE = 128  # of the texels in the middle that are fitted
+COUNTS = [6, 8, 12, 16, 24, 40]
+SIDE = 64  # of the texels in the middle that are fitted
 
 
 def lights_of(list_file):

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <glm/ext/matrix_transform.hpp>
 
 #include "GlTest.h"
