@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// One lobe of light, as a prefiltered environment answers it: the average radiance over (direction
-/// . l)^n, times `amount`.
+/// One lobe of light, as a prefiltered environment answers it: `amount` times the average radiance
+/// over (direction . l)^n.
 struct CosineLobe {
   float amount = 0.0f;
   glm::vec3 direction{0, 0, 1};
