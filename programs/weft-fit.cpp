@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -98,7 +99,11 @@ std::filesystem::path partsOf(const std::filesystem::path& output) {
 DefaultModel modelFor(const Arguments& a, const BtfDescription& measured) {
   if (!a.model.empty()) return {a.model, ""};
   DefaultModel model = defaultModel(measured);
-  const bool hasOptions = a.fit.models.create({model.name, a.modelOptions.given()}).has_value();
+  const auto type = a.fit.models.find(model.name);
+  const bool hasOptions =
+      type && std::ranges::all_of(a.modelOptions.given(), [&](const auto& option) {
+        return std::ranges::find(type->options, option.first, &ModelOption::name) != type->options.end();
+      });
   return hasOptions ? model : DefaultModel{a.fit.model.name, "the options given"};
 }
 

@@ -243,6 +243,8 @@ TEST(FitCommand, BadUsageEndsWithOne) {
                 "the model 'rfp' has no option 'lobes' (its options are color)");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "laf", "--rho-d", "per-view"}), 1,
                 "the model 'laf' has no option 'rho_d' (its options are lobes, color)");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--components", "10"}), 1, "multiple of 4");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--components", "400"}), 1, "4 to 128");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--lobes", "2.5"}), 1,
                 "'lobes' of the model 'rfnl' cannot be 2.5 (1 to 4)");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--crop", "1", "2"}), 1, "crop");

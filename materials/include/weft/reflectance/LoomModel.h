@@ -11,11 +11,11 @@ namespace weft {
 ///     (dR, dB) = sum_{k<2} W_k C_ik(l)  hue that changes with the directions; dG keeps Y
 ///     RGB = max(0, c Y + (dR, dG, dB))
 ///
-/// W: shared numbers in -1..1; c: the base colour, of luminance 1. M and C: a map of the lights a
-/// view (LightMap.h), its layer. For light of environments, polynomials of the light come closest
-/// to the maps (kTerms; of components from kQuadratic on three of them): moments of the environment
-/// integrate these. W may be filtered between texels and averaged for coarser levels, because light
-/// is linear in it; base colours are fitted anew for those.
+/// W: shared numbers in -1..1; c: the base colour, of a luminance of about 1. M and C: a map of the
+/// lights a view (LightMap.h), its layer. For light of environments, polynomials of the light come
+/// closest to the maps (kTerms; of components from kQuadratic on three of them): moments of the
+/// environment integrate these. W may be filtered between texels and averaged for coarser levels,
+/// because light is linear in it; base colours are fitted anew for those.
 class LoomModel : public ReflectanceModel {
  public:
   static ModelType type();
