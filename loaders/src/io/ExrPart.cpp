@@ -135,7 +135,7 @@ Result<std::uint64_t> checkExrFile(const std::filesystem::path& path) {
   return fileBytes;
 }
 
-Result<ExrPartShape> exrPartShape(const Imf::Header& header, const std::string& where) {
+Result<glm::ivec2> exrPartSize(const Imf::Header& header, const std::string& where) {
   if (header.hasType() && header.type() != Imf::SCANLINEIMAGE && header.type() != Imf::TILEDIMAGE)
     return fail("deep images are not supported", where);
   const Imath::Box2i window = header.dataWindow();
@@ -144,8 +144,12 @@ Result<ExrPartShape> exrPartShape(const Imf::Header& header, const std::string& 
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
     return fail(fmt::format("an image of {} x {} pixels is not supported", width, height), where,
                 fmt::format("at most {} a side", kLargestSide));
+  return glm::ivec2(width, height);
+}
 
-  ExrPartShape shape{static_cast<int>(width), static_cast<int>(height), {}, Precision::Half};
+Result<ExrPartShape> exrPartShape(const Imf::Header& header, const std::string& where) {
+  WEFT_TRY(const glm::ivec2 size, exrPartSize(header, where));
+  ExrPartShape shape{size.x, size.y, {}, Precision::Half};
   const Imf::ChannelList& channels = header.channels();
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     const Imf::Channel& properties = channel.channel();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,10 @@ struct ExrPartShape {
 /// file. Returns the file's size in bytes.
 Result<std::uint64_t> checkExrFile(const std::filesystem::path& path);
 
-/// Fails on deep, integer and subsampled parts, and on more than 16384 pixels a side.
+/// Columns and rows. Fails on deep parts, and on more than 16384 pixels a side.
+Result<glm::ivec2> exrPartSize(const Imf::Header& header, const std::string& where);
+
+/// Fails like exrPartSize(), and on integer and subsampled channels.
 Result<ExrPartShape> exrPartShape(const Imf::Header& header, const std::string& where);
 
 /// Fails where `values` floats are out of all proportion to the size of the file that claims to
