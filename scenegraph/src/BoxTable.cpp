@@ -12,7 +12,7 @@ namespace weft {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfiniteFloat = std::numeric_limits<float>::infinity();
 
 /// How far outside a box may seem to be although it touches the plane: rounding of sums of this
 /// size.
@@ -27,7 +27,7 @@ bool meets(const Ray& ray, const glm::dvec3& center, glm::vec3 extent) {
   // Of the rounding of extents, of places, and of the quotients.
   constexpr double ofExtent = 4.0 * std::numeric_limits<float>::epsilon();
   constexpr double ofPlace = 8.0 * std::numeric_limits<double>::epsilon();
-  double enter = 0.0, leave = kInfinity;
+  double enter = 0.0, leave = kInfiniteFloat;
   for (int axis = 0; axis < 3; ++axis) {
     const double offset = center[axis] - ray.origin[axis];
     const double reach = double{extent[axis]} * (1.0 + ofExtent) +
@@ -77,14 +77,14 @@ void BoxTable::update() {
 void BoxTable::mend(Block& block) {
   block.changed = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double low = kInfinity, high = -kInfinity;
+    double low = kInfiniteFloat, high = -kInfiniteFloat;
     for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(mask));
       const double center = block.center[axis][i], extent = double{block.extent[axis][i]};
       low = std::min(low, center - extent);
       high = std::max(high, center + extent);
       // What is not a number lies everywhere.
-      if (std::isnan(center + extent)) low = -kInfinity, high = kInfinity;
+      if (std::isnan(center + extent)) low = -kInfiniteFloat, high = kInfiniteFloat;
     }
     block.blockCenter[static_cast<int>(axis)] = 0.5 * (low + high);
     block.blockExtent[static_cast<int>(axis)] = static_cast<float>(0.5 * (high - low));
@@ -115,7 +115,7 @@ std::uint64_t BoxTable::insideMask(const Block& block, const Frustum& frustum) {
   // How far the innermost corner of each box is inside the plane that it is least inside of.
   const std::array<Lane, 3> centers = centersFrom(frustum.eye, block);
   Lane inside;
-  inside.fill(kInfinity);
+  inside.fill(kInfiniteFloat);
   for (const glm::vec4 plane : frustum.planes) {
     const glm::vec3 reach = glm::abs(glm::vec3(plane));
     const float offset = plane.w + rounding(plane, blockCenter, block.blockExtent);

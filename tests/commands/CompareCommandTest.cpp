@@ -44,7 +44,7 @@ TEST(CompareCommand, FitsEveryModelAsWeftFitDoes) {
       EXPECT_EQ(model.at(key), fit.at(key)) << key;
     for (const char* option : {"lobes", "rho_d"})
       EXPECT_EQ(model.value(option, json()), fit.value(option, json())) << option;
-    EXPECT_TRUE(test::textOf(out / model.at("file")) == test::textOf(again));
+    EXPECT_TRUE(test::readText(out / model.at("file")) == test::readText(again));
     // The models fit this cloth all but exactly, on a rendered cloth, too.
     EXPECT_GT(model.at("picture_difference"), 0.0);
     EXPECT_LT(model.at("picture_difference"), 0.01);

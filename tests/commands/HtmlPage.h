@@ -1,21 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "TextFile.h"
 
 namespace weft::test {
 
-inline std::string textOf(const std::filesystem::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// A page without the bytes of its pictures, in which any word may occur.
 inline std::string pageWithoutPictures(const std::filesystem::path& file) {
-  std::string text = textOf(file);
+  std::string text = readText(file);
   const std::string start = ";base64,";
   for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + start.size()))
     text.erase(at + start.size(), text.find('"', at) - at - start.size());

@@ -5,21 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "TestSupport.h"
+#include "TextFile.h"
 
 namespace weft::test {
-namespace {
-
-std::string textOf(const std::filesystem::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-}  // namespace
 
 ProgramRun runProgram(const std::string& name, const std::vector<std::string>& arguments) {
   const std::string program = (programFolder() / name).string();
@@ -43,8 +32,8 @@ ProgramRun runProgram(const std::string& name, const std::vector<std::string>& a
   if (posix_spawn(&process, program.c_str(), &actions, nullptr, argv.data(), environ) == 0 &&
       waitpid(process, &status, 0) == process) {
     run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    run.out = textOf(out);
-    run.err = textOf(err);
+    run.out = readText(out);
+    run.err = readText(err);
   } else {
     ADD_FAILURE() << program << " cannot be run";
   }

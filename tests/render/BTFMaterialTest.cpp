@@ -22,7 +22,7 @@
 namespace weft::test {
 namespace {
 
-constexpr int kSize = 128;
+constexpr int kPictureSize = 128;
 
 // Turns a node's -Z, along which a directional light shines, against `towardsLight`.
 glm::mat4 shiningFrom(glm::vec3 towardsLight) {
@@ -72,8 +72,8 @@ std::shared_ptr<Mesh> squareWithFrame(const Frame& frame) {
 }
 
 glm::vec3 pixelPosition(int x, int y) {
-  return {-1.0f + 2.0f * (static_cast<float>(x) + 0.5f) / kSize,
-          1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, 0.0f};
+  return {-1.0f + 2.0f * (static_cast<float>(x) + 0.5f) / kPictureSize,
+          1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kPictureSize, 0.0f};
 }
 
 // The layers that the shader finds for a light and a view.
@@ -92,13 +92,14 @@ auto layersOnTheGpu(const ReflectanceField& field) {
 template <class Weights>
 FloatImage referencePicture(const ReflectanceField& field, const Frame& frame, glm::vec3 towardsLight,
                             const Weights& weights) {
-  FloatImage picture(kSize, kSize, {"R", "G", "B", "A"});
+  FloatImage picture(kPictureSize, kPictureSize, {"R", "G", "B", "A"});
   const glm::vec3 light = frame.toFrame(towardsLight);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kPictureSize; ++y)
+    for (int x = 0; x < kPictureSize; ++x) {
       const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
-      const glm::vec3 value = field.evaluate(x * field.width() / kSize, y * field.height() / kSize,
-                                             weights(light, view), light, view);
+      const glm::vec3 value =
+          field.evaluate(x * field.width() / kPictureSize, y * field.height() / kPictureSize,
+                         weights(light, view), light, view);
       for (int c = 0; c < 3; ++c) picture.at(x, y, c) = value[c];
       picture.at(x, y, 3) = 1.0f;
     }
@@ -129,7 +130,7 @@ class BTFMaterialTest : public GlTest {
   FloatImage render(const BTFMaterialOptions& options, std::shared_ptr<const ReflectanceField> field,
                     const Frame& frame, glm::vec3 towardsLight) {
     auto material = valueOf(BTFMaterial::create(std::move(field), options));
-    return picture(*scene(material, squareWithFrame(frame), towardsLight), kSize, kSize);
+    return picture(*scene(material, squareWithFrame(frame), towardsLight), kPictureSize, kPictureSize);
   }
 };
 
@@ -169,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Models, GpuAgainstCpu, testing::ValuesIn(someModels()),
                          [](const auto& test) { return nameOf(test.param); });
 
 // A field whose every number is different, so that a mix-up of texels, views or channels shows.
-std::shared_ptr<const ReflectanceField> fittedField(bool cosineInModel = false) {
+std::shared_ptr<const ReflectanceField> glossyReliefField(bool cosineInModel = false) {
   const MemoryBtf source(8, 8, [](int x, int y, glm::vec3 v, glm::vec3 l) {
     const float relief = 1.0f + 0.4f * std::sin(0.8f * static_cast<float>(x) + 2.0f * l.x) *
                                     std::cos(0.5f * static_cast<float>(y) + l.y);
@@ -184,7 +185,7 @@ std::shared_ptr<const ReflectanceField> fittedField(bool cosineInModel = false) 
 }
 
 TEST_F(BTFMaterialTest, NearestViewIsTheOneOfTheLargestWeight) {
-  const auto field = fittedField();
+  const auto field = glossyReliefField();
   const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.3f, 0.4f, 0.7f)));
   const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(-0.5f, 0.2f, 0.6f));
@@ -198,7 +199,7 @@ TEST_F(BTFMaterialTest, NearestViewIsTheOneOfTheLargestWeight) {
 }
 
 TEST_F(BTFMaterialTest, AFieldThatContainsTheCosineFadesBelowTheMeasuredLights) {
-  const auto field = fittedField(true);
+  const auto field = glossyReliefField(true);
   const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(-0.2f, 0.1f, 0.9f)));
   for (double theta : {70.0, 80.0, 88.0, 95.0}) {
@@ -209,18 +210,18 @@ TEST_F(BTFMaterialTest, AFieldThatContainsTheCosineFadesBelowTheMeasuredLights) 
 }
 
 TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
-  const auto field = fittedField();
+  const auto field = glossyReliefField();
   const auto layers = layersOnTheGpu(*field);
   const Frame frame = frameSeenFrom(glm::normalize(glm::vec3(0.2f, -0.3f, 0.8f)));
   const glm::vec3 towardsLight = frame.axes * glm::normalize(glm::vec3(0.4f, 0.3f, 0.5f));
   const glm::vec3 light = frame.toFrame(towardsLight);
-  FloatImage expected(kSize, kSize, {"R", "G", "B", "A"});
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  FloatImage expected(kPictureSize, kPictureSize, {"R", "G", "B", "A"});
+  for (int y = 0; y < kPictureSize; ++y)
+    for (int x = 0; x < kPictureSize; ++x) {
       const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
       const DirectionWeights weights = layers(light, view);
       const glm::vec2 place = glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) * 8.0f /
-                                  static_cast<float>(kSize) -
+                                  static_cast<float>(kPictureSize) -
                               0.5f;
       const glm::vec2 low = glm::floor(place);
       glm::vec3 value(0.0f);
@@ -238,13 +239,13 @@ TEST_F(BTFMaterialTest, BilinearMixesTheResultsOfFourTexelsAcrossTheEdgesToo) {
 }
 
 TEST_F(BTFMaterialTest, TexturesRepeat) {
-  const auto field = fittedField();
+  const auto field = glossyReliefField();
   const Frame upright{glm::mat3(1.0f)};
   const glm::vec3 towardsLight(0.3f, 0.2f, 0.9f);
   // A view so far away that it is the same for all pixels.
   const auto far = [&](glm::vec2 scale) {
     auto material = valueOf(BTFMaterial::create(field, {.textureScale = scale}));
-    const RenderTarget target(kSize, kSize, Precision::Float);
+    const RenderTarget target(kPictureSize, kPictureSize, Precision::Float);
     Camera camera = Camera::lookAt({0, 0, 1000}, {0, 0, 0});
     camera.verticalFieldOfView = 2.0f * std::atan(0.001f);
     camera.nearPlane = 900.0f;
@@ -255,10 +256,10 @@ TEST_F(BTFMaterialTest, TexturesRepeat) {
   };
   const FloatImage once = far({1.0f, 1.0f});
   const FloatImage twice = far({2.0f, 1.0f});
-  for (int y = 0; y < kSize; y += 5)
-    for (int x = 0; x < kSize; x += 3) {
-      EXPECT_NEAR(twice.at(x, y, 0), twice.at((x + kSize / 2) % kSize, y, 0), 1e-3f);
-      EXPECT_NEAR(twice.at(x, y, 0), once.at(2 * x % kSize, y, 0), 1e-3f);
+  for (int y = 0; y < kPictureSize; y += 5)
+    for (int x = 0; x < kPictureSize; x += 3) {
+      EXPECT_NEAR(twice.at(x, y, 0), twice.at((x + kPictureSize / 2) % kPictureSize, y, 0), 1e-3f);
+      EXPECT_NEAR(twice.at(x, y, 0), once.at(2 * x % kPictureSize, y, 0), 1e-3f);
     }
 }
 
@@ -286,10 +287,10 @@ TEST_F(BTFMaterialTest, FilteredParametersAreThoseOfTheLevelThatFits) {
   const glm::vec3 light = frame.toFrame(towardsLight);
   for (int level = 0; level < 4; ++level) {
     const FloatImage& shared = field->levels()[static_cast<std::size_t>(level)].shared;
-    const float repetitions = static_cast<float>(kSize) / static_cast<float>(shared.width());
-    FloatImage expected(kSize, kSize, {"R", "G", "B", "A"});
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
+    const float repetitions = static_cast<float>(kPictureSize) / static_cast<float>(shared.width());
+    FloatImage expected(kPictureSize, kPictureSize, {"R", "G", "B", "A"});
+    for (int y = 0; y < kPictureSize; ++y)
+      for (int x = 0; x < kPictureSize; ++x) {
         const glm::vec3 view = frame.toFrame(glm::normalize(glm::vec3(0, 0, 2) - pixelPosition(x, y)));
         const DirectionWeights weights = layers(light, view);
         glm::vec3 value(0.0f);
@@ -399,7 +400,7 @@ TEST_F(BTFMaterialTest, ChangedOptionsShowWhatANewMaterialOfThemShows) {
 }
 
 TEST_F(BTFMaterialTest, TintAndExposureMultiplyWhatIsShown) {
-  const auto textures = valueOf(BTFTextures::create(*fittedField()));
+  const auto textures = valueOf(BTFTextures::create(*glossyReliefField()));
   const auto shown = [&](const BTFMaterialOptions& options) {
     return picture(*scene(valueOf(BTFMaterial::create(textures, options)), square(), {0, 0, 1}), 16, 16);
   };
@@ -412,14 +413,14 @@ TEST_F(BTFMaterialTest, TintAndExposureMultiplyWhatIsShown) {
 }
 
 TEST_F(BTFMaterialTest, WrongOptionsAreRefused) {
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.interpolatedViews = 2}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {1, -1}}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {0, 1}}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.textureScale = {INFINITY, 1}}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.tint = {1, -1, 1}}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.tint = {1, NAN, 1}}));
-  EXPECT_FALSE(BTFMaterial::create(fittedField(), {.exposure = 1000.0f}));
-  const auto material = valueOf(BTFMaterial::create(fittedField(), {.exposure = 1.0f}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.interpolatedViews = 2}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.textureScale = {1, -1}}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.textureScale = {0, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.textureScale = {INFINITY, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.tint = {1, -1, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.tint = {1, NAN, 1}}));
+  EXPECT_FALSE(BTFMaterial::create(glossyReliefField(), {.exposure = 1000.0f}));
+  const auto material = valueOf(BTFMaterial::create(glossyReliefField(), {.exposure = 1.0f}));
   EXPECT_FALSE(material->setOptions({.interpolatedViews = 2}));
   EXPECT_EQ(material->options().interpolatedViews, 3);
   EXPECT_EQ(material->options().exposure, 1.0f);

@@ -26,8 +26,8 @@ namespace {
 
 /// Glossy and coloured, every view and light another value. One texel, because rays and pixels
 /// disagree about where one ends.
-std::shared_ptr<const ReflectanceField> unevenField(const ModelDescription& model, bool cosineInModel = false,
-                                                    bool stored = false) {
+std::shared_ptr<const ReflectanceField> fieldWithSheen(const ModelDescription& model,
+                                                       bool cosineInModel = false, bool stored = false) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) {
     const float relief = 1.0f + 0.4f * std::sin(2.0f * l.x) * std::cos(l.y);
     const glm::vec3 mirrored = glm::normalize(glm::vec3(-v.x, -v.y, v.z + 0.3f));
@@ -168,7 +168,7 @@ class GpuAgainstSums : public EnvironmentTest, public testing::WithParamInterfac
       const auto light = makeEnvironmentLight(environment, prefiltered, lookup);
       for (const FitKind& kind : kinds) {
         SCOPED_TRACE(nameOf(kind) + (lookup == LobeLookup::Paper ? " paper" : ""));
-        const auto field = unevenField(kind.model, kind.cosineInModel, kind.stored);
+        const auto field = fieldWithSheen(kind.model, kind.cosineInModel, kind.stored);
         // Prepared ones ask for the same, but that half precision rounds it.
         for (const bool prepared : {false, true}) {
           const FloatImage actual =
@@ -310,7 +310,7 @@ TEST_F(EnvironmentTest, DiffuseAndSpecularAddUpAndPointLightsToo) {
       std::make_shared<PBRMaterial>(PBROptions{.metallic = 0.3f, .roughness = 0.5f}),
       std::make_shared<LambertMaterial>()};
   for (const FitKind& kind : usualKinds())
-    materials.push_back(valueOf(BTFMaterial::create(unevenField(kind.model))));
+    materials.push_back(valueOf(BTFMaterial::create(fieldWithSheen(kind.model))));
   for (const auto& material : materials) {
     const auto part = [&](ReflectedPart each) { return draw(material, true, true, each); };
     const FloatImage all = part(ReflectedPart::All);
@@ -394,7 +394,7 @@ TEST_F(EnvironmentTest, BadPicturesAreWarnedAboutAndDrawn) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   const auto material =
-      valueOf(BTFMaterial::create(unevenField({.name = "rfnl", .options = {{"lobes", 2}}})));
+      valueOf(BTFMaterial::create(fieldWithSheen({.name = "rfnl", .options = {{"lobes", 2}}})));
   const auto mirror = std::make_shared<PBRMaterial>(PBROptions{.roughness = 0.0f});
   const auto cleaned = [&](const FloatImage& picture, std::size_t expectedWarnings) {
     std::vector<std::string> warnings;

@@ -44,8 +44,8 @@ TEST(GltfInstances, StandWhereTheirAttributesSay) {
   const auto drawn = drawnIn(scene);
   ASSERT_EQ(drawn.size(), 2u);
   EXPECT_EQ(drawn[0].mesh, drawn[1].mesh);
-  EXPECT_EQ(drawn[0].toWorld, glm::translate(glm::mat4(1), glm::vec3(1, 2, 8)));
-  const glm::vec3 corner(drawn[1].toWorld * glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(drawn[0].toWorld, glm::translate(glm::dmat4(1), glm::dvec3(1, 2, 8)));
+  const glm::vec3 corner(drawn[1].toWorld * glm::dvec4(1, 0, 0, 1));
   EXPECT_LT(glm::distance(corner, glm::vec3(4 + 2 * 0.28f, 5 + 2 * 0.96f, 11)), 1e-5f)
       << "scaled, turned by a quaternion that need not be unit, moved, below the node";
 }
@@ -65,7 +65,7 @@ TEST(GltfInstances, MayBeWholeNumbers) {
   file["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"ROTATION", 1}};
   const auto drawn = drawnIn(loadedGltf(file));
   ASSERT_EQ(drawn.size(), 2u);
-  EXPECT_LT(glm::distance(drawn[1].toWorld * glm::vec4(1, 0, 0, 0), glm::vec4(1, 0, 0, 0)), 1.1f);
+  EXPECT_LT(glm::distance(drawn[1].toWorld * glm::dvec4(1, 0, 0, 0), glm::dvec4(1, 0, 0, 0)), 1.1);
 }
 
 TEST(GltfInstances, OfDifferentLengthsOrBrokenAreRefused) {

@@ -12,10 +12,8 @@
 #include <random>
 #include <sstream>
 
-#include "GltfText.h"
+#include "GltfScenes.h"
 #include "TestField.h"
-#include "TestScene.h"
-#include "TestSupport.h"
 #include "weft/io/ImageFile.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/materials/PBRMaterial.h"
@@ -28,50 +26,21 @@ namespace weft {
 namespace {
 
 using test::BufferBytes;
+using test::drawnIn;
+using test::DrawnMesh;
+using test::failureOfText;
+using test::loadedText;
 using test::planeBuffer;
 using test::planeGlb;
 using test::planeGltf;
 using test::replaced;
 using test::testFolder;
 using test::valueOf;
+using test::writtenGltf;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::filesystem::path written(const std::string& text, const std::string& name = "scene.gltf") {
-  const std::filesystem::path path = testFolder() / name;
-  test::writeText(path, text);
-  return path;
-}
-
-GltfScene loaded(const std::string& text, const GltfOptions& options = {}) {
-  return valueOf(loadGltf(written(text), options));
-}
-
-std::string failure(const std::string& text) {
-  const auto scene = loadGltf(written(text));
-  return scene ? "it loaded" : scene.error().message();
-}
-
-/// A mesh where it stands in the world.
-struct Placed {
-  glm::dmat4 toWorld;
-  std::shared_ptr<const Mesh> mesh;
-};
-
-void collect(const Node& node, glm::dmat4 toWorld, std::vector<Placed>& placed) {
-  if (const auto* transform = dynamic_cast<const Transform*>(&node.core())) toWorld *= transform->matrix();
-  if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core()))
-    placed.push_back({toWorld, geometry->mesh()});
-  for (const auto& child : node.children()) collect(*child, toWorld, placed);
-}
-
-std::vector<Placed> meshesOf(const GltfScene& scene) {
-  std::vector<Placed> placed;
-  collect(*scene.root, glm::dmat4(1.0), placed);
-  return placed;
-}
 
 template <class Core>
 const Core* firstOf(const Node& node) {
@@ -91,17 +60,17 @@ void expectIsThePlane(const Mesh& mesh) {
 }
 
 TEST(GltfLoader, ReadsAMesh) {
-  const GltfScene scene = loaded(planeGltf());
-  ASSERT_EQ(meshesOf(scene).size(), 1u);
-  expectIsThePlane(*meshesOf(scene)[0].mesh);
+  const GltfScene scene = loadedText(planeGltf());
+  ASSERT_EQ(drawnIn(scene).size(), 1u);
+  expectIsThePlane(*drawnIn(scene)[0].mesh);
   EXPECT_THAT(scene.materials, ElementsAre("base"));
   EXPECT_THAT(scene.warnings, IsEmpty());
   EXPECT_EQ(scene.bounds.minimum, glm::dvec3(-0.5, -0.5, 0.0));
 }
 
 TEST(GltfLoader, ReadsTheBinaryForm) {
-  const GltfScene scene = valueOf(loadGltf(written(planeGlb(), "scene.glb")));
-  expectIsThePlane(*meshesOf(scene)[0].mesh);
+  const GltfScene scene = valueOf(loadGltf(writtenGltf(planeGlb(), "scene.glb")));
+  expectIsThePlane(*drawnIn(scene)[0].mesh);
 }
 
 TEST(GltfLoader, ReadsABufferBesideTheFile) {
@@ -110,7 +79,7 @@ TEST(GltfLoader, ReadsABufferBesideTheFile) {
   std::ofstream(folder / "my buffer.bin", std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   test::writeText(folder / "scene.gltf", planeGltf(R"({"name":"base"})", "my%20buffer.bin"));
-  expectIsThePlane(*meshesOf(valueOf(loadGltf(folder / "scene.gltf")))[0].mesh);
+  expectIsThePlane(*drawnIn(valueOf(loadGltf(folder / "scene.gltf")))[0].mesh);
 }
 
 TEST(GltfLoader, ReadsIndicesAndTexcoordsOfEveryType) {
@@ -127,12 +96,12 @@ TEST(GltfLoader, ReadsIndicesAndTexcoordsOfEveryType) {
   {
     BufferBytes buffer;
     buffer.add(vertices).add<std::uint8_t>({0, 2, 3, 0, 3, 1});
-    expectIsThePlane(*meshesOf(loaded(withIndices(buffer, "5121", 6)))[0].mesh);
+    expectIsThePlane(*drawnIn(loadedText(withIndices(buffer, "5121", 6)))[0].mesh);
   }
   {
     BufferBytes buffer;
     buffer.add(vertices).add<std::uint32_t>({0, 2, 3, 0, 3, 1});
-    expectIsThePlane(*meshesOf(loaded(withIndices(buffer, "5125", 24)))[0].mesh);
+    expectIsThePlane(*drawnIn(loadedText(withIndices(buffer, "5125", 24)))[0].mesh);
   }
   const std::string floats = R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC2"})";
   {
@@ -146,7 +115,7 @@ TEST(GltfLoader, ReadsIndicesAndTexcoordsOfEveryType) {
     text = replaced(text, floats,
                     R"({"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC2"})");
     text = replaced(text, R"("byteLength":32)", R"("byteLength":32,"byteStride":4)");
-    expectIsThePlane(*meshesOf(loaded(text))[0].mesh);
+    expectIsThePlane(*drawnIn(loadedText(text))[0].mesh);
   }
   {
     // 16-bit normalised, at an offset in its view.
@@ -158,20 +127,20 @@ TEST(GltfLoader, ReadsIndicesAndTexcoordsOfEveryType) {
     text = replaced(
         text, floats,
         R"({"bufferView":2,"byteOffset":4,"componentType":5123,"normalized":true,"count":4,"type":"VEC2"})");
-    expectIsThePlane(*meshesOf(loaded(text))[0].mesh);
+    expectIsThePlane(*drawnIn(loadedText(text))[0].mesh);
   }
 }
 
 TEST(GltfLoader, ReadsTrianglesWithoutIndices) {
   std::string text = replaced(planeGltf(), R"("indices":3,)", "");
   for (int accessor = 0; accessor < 3; ++accessor) text = replaced(text, R"("count":4)", R"("count":3)");
-  const auto meshes = meshesOf(loaded(text));
+  const auto meshes = drawnIn(loadedText(text));
   EXPECT_THAT(meshes[0].mesh->indices, ElementsAre(0u, 1u, 2u));
   EXPECT_EQ(meshes[0].mesh->positions.size(), 3u);
 }
 
 TEST(GltfLoader, MakesFlatNormalsWhereThereAreNone) {
-  const auto meshes = meshesOf(loaded(replaced(planeGltf(), R"("NORMAL":1,)", "")));
+  const auto meshes = drawnIn(loadedText(replaced(planeGltf(), R"("NORMAL":1,)", "")));
   EXPECT_EQ(meshes[0].mesh->positions.size(), 6u);
   for (const glm::vec3 normal : meshes[0].mesh->normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1));
   for (const glm::vec4 tangent : meshes[0].mesh->tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
@@ -189,7 +158,7 @@ TEST(GltfLoader, KeepsTheTangentsOfTheFile) {
                R"("byteLength":208)"),
       R"({"buffer":0,"byteOffset":128,"byteLength":12})",
       R"({"buffer":0,"byteOffset":128,"byteLength":12},{"buffer":0,"byteOffset":144,"byteLength":64})");
-  const auto meshes = meshesOf(loaded(whole));
+  const auto meshes = drawnIn(loadedText(whole));
   for (const glm::vec4 tangent : meshes[0].mesh->tangents) EXPECT_EQ(tangent, glm::vec4(0, 1, 0, -1));
 }
 
@@ -199,7 +168,7 @@ TEST(GltfLoader, PlacesMeshesAndCamerasAsTheirNodesSay) {
       R"({"matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,5,6,7,1],"mesh":0},)"
       R"({"translation":[0,0,9],"camera":0,"name":"place"}],"cameras":[{"type":"perspective","name":"eye",)"
       R"("perspective":{"yfov":0.5,"znear":0.1}}])";
-  const GltfScene scene = loaded(replaced(planeGltf(), R"("nodes":[{"mesh":0,"name":"plane"}])", nodes));
+  const GltfScene scene = loadedText(replaced(planeGltf(), R"("nodes":[{"mesh":0,"name":"plane"}])", nodes));
 
   const glm::dmat4 outer = glm::translate(glm::mat4(1), glm::vec3(1, 2, 3)) *
                            glm::mat4_cast(glm::quat(0.8f, 0.0f, 0.6f, 0.0f)) *
@@ -211,7 +180,7 @@ TEST(GltfLoader, PlacesMeshesAndCamerasAsTheirNodesSay) {
   const Camera& camera = scene.cameras[0].camera;
   const glm::vec3 eye(outer * glm::vec4(0, 0, 9, 1));
   const glm::dmat4 expectedView = glm::lookAt(eye, eye - glm::vec3(0.96f, 0, 0.28f), glm::vec3(0, 1, 0));
-  const Placed placed = meshesOf(scene).at(0);
+  const DrawnMesh placed = drawnIn(scene).at(0);
   for (const glm::vec3 position : placed.mesh->positions) {
     const glm::vec4 point(position, 1.0f);
     const glm::vec4 expected = camera.projection(1.5f) * expectedView * outer * inner * point;
@@ -227,7 +196,7 @@ TEST(GltfLoader, SharesTheMeshOfSeveralNodes) {
   const std::string text =
       replaced(replaced(planeGltf(), R"("scenes":[{"nodes":[0]}])", R"("scenes":[{"nodes":[0,1]}])"),
                R"({"mesh":0,"name":"plane"})", R"({"mesh":0},{"mesh":0,"translation":[0,0,1]})");
-  const auto meshes = meshesOf(loaded(text));
+  const auto meshes = drawnIn(loadedText(text));
   ASSERT_EQ(meshes.size(), 2u);
   EXPECT_EQ(meshes[0].mesh, meshes[1].mesh);
 }
@@ -240,44 +209,45 @@ std::string withLight(const std::string& light) {
 }
 
 TEST(GltfLoader, ReadsLights) {
-  const GltfScene point = loaded(withLight(R"({"type":"point","color":[1,0.5,0.25],"intensity":8})"));
+  const GltfScene point = loadedText(withLight(R"({"type":"point","color":[1,0.5,0.25],"intensity":8})"));
   EXPECT_EQ(point.lights, 1);
   ASSERT_TRUE(firstOf<PointLight>(*point.root));
   EXPECT_EQ(firstOf<PointLight>(*point.root)->intensity, glm::vec3(8, 4, 2));
 
-  const GltfScene sun = loaded(withLight(R"({"type":"directional","intensity":3})"));
+  const GltfScene sun = loadedText(withLight(R"({"type":"directional","intensity":3})"));
   ASSERT_TRUE(firstOf<DirectionalLight>(*sun.root));
   EXPECT_EQ(firstOf<DirectionalLight>(*sun.root)->irradiance, glm::vec3(3));
 
-  const GltfScene near = loaded(withLight(R"({"type":"point","range":7.5})"));
+  const GltfScene near = loadedText(withLight(R"({"type":"point","range":7.5})"));
   EXPECT_EQ(firstOf<PointLight>(*near.root)->range, 7.5f);
 
-  const GltfScene spot = loaded(withLight(
+  const GltfScene spot = loadedText(withLight(
       R"({"type":"spot","intensity":2,"range":9,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}})"));
   ASSERT_TRUE(firstOf<SpotLight>(*spot.root));
   EXPECT_EQ(firstOf<SpotLight>(*spot.root)->intensity, glm::vec3(2));
   EXPECT_EQ(firstOf<SpotLight>(*spot.root)->innerAngle, 0.25f);
   EXPECT_EQ(firstOf<SpotLight>(*spot.root)->outerAngle, 0.5f);
   EXPECT_EQ(firstOf<SpotLight>(*spot.root)->range, 9.0f);
-  EXPECT_FLOAT_EQ(firstOf<SpotLight>(*loaded(withLight(R"({"type":"spot","spot":{}})")).root)->outerAngle,
+  EXPECT_FLOAT_EQ(firstOf<SpotLight>(*loadedText(withLight(R"({"type":"spot","spot":{}})")).root)->outerAngle,
                   0.25f * glm::pi<float>());
-  EXPECT_THAT(failure(withLight(R"({"type":"spot","spot":{"innerConeAngle":0.6,"outerConeAngle":0.5}})")),
-              HasSubstr("light 0"));
-  EXPECT_THAT(failure(withLight(R"({"type":"area"})")), HasSubstr("light 0"));
+  EXPECT_THAT(
+      failureOfText(withLight(R"({"type":"spot","spot":{"innerConeAngle":0.6,"outerConeAngle":0.5}})")),
+      HasSubstr("light 0"));
+  EXPECT_THAT(failureOfText(withLight(R"({"type":"area"})")), HasSubstr("light 0"));
 
   const GltfScene dark =
-      loaded(withLight(R"({"type":"point"})"), {.replacements = {}, .lights = false, .btf = {}});
+      loadedText(withLight(R"({"type":"point"})"), {.replacements = {}, .lights = false, .btf = {}});
   EXPECT_EQ(dark.lights, 0);
 }
 
 TEST(GltfLoader, MakesTheMaterialsThatTheFileNames) {
-  const auto path = written(planeGltf(
+  const auto path = writtenGltf(planeGltf(
       R"({"name":"cloth","extensions":{"WEFT_materials_btf":{"uri":"wo%6fl.rf.exr","scale":[4,2]}}})"));
   test::requireDone(writeReflectanceField(test::testField(), path.parent_path() / "wool.rf.exr"));
   const GltfScene scene = valueOf(loadGltf(path));
   EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material().get()));
 
-  const GltfScene plain = loaded(planeGltf());
+  const GltfScene plain = loadedText(planeGltf());
   EXPECT_TRUE(dynamic_cast<const PBRMaterial*>(firstOf<MaterialGroup>(*plain.root)->material().get()));
 }
 
@@ -288,13 +258,13 @@ TEST(GltfLoader, ReadsTheExampleOfTheExtensionsPage) {
   const std::size_t start = text.find(fence);
   ASSERT_NE(start, std::string::npos);
   const std::size_t first = start + fence.size();
-  const auto path = written(text.substr(first, text.find("```", first) - first));
+  const auto path = writtenGltf(text.substr(first, text.find("```", first) - first));
   test::requireDone(writeReflectanceField(test::testField(), path.parent_path() / "wool.rf.exr"));
   const GltfScene scene = valueOf(loadGltf(path));
   EXPECT_THAT(scene.materials, ElementsAre("wool"));
   EXPECT_THAT(scene.warnings, IsEmpty());
   EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(firstOf<MaterialGroup>(*scene.root)->material().get()));
-  const auto meshes = meshesOf(scene);
+  const auto meshes = drawnIn(scene);
   ASSERT_EQ(meshes.size(), 1u);
   EXPECT_EQ(meshes[0].mesh->tangents, std::vector<glm::vec4>(3, {1, 0, 0, 1}));
 }
@@ -304,13 +274,13 @@ constexpr const char* kTextured =
     R"("textures":[{"source":0}],"images":[{"uri":"colors.png"})";
 
 TEST(GltfLoader, ReadsBaseColorTextures) {
-  const auto path = written(planeGltf(kTextured));
+  const auto path = writtenGltf(planeGltf(kTextured));
   test::requireDone(writePng(path.parent_path() / "colors.png", Image(3, 2, 3)));
   EXPECT_TRUE(loadGltf(path));
 }
 
 TEST(GltfLoader, WarnsOfAMissingOrBrokenTextureAndFallsBack) {
-  const auto path = written(planeGltf(kTextured));
+  const auto path = writtenGltf(planeGltf(kTextured));
   for (const char* message : {"colors.png: no such file", "colors.png: "}) {
     const GltfScene scene = valueOf(loadGltf(path));
     EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("base colour of material \"base\""),
@@ -320,9 +290,9 @@ TEST(GltfLoader, WarnsOfAMissingOrBrokenTextureAndFallsBack) {
 }
 
 TEST(GltfLoader, ShowsTheMaterialsOwnMapsWhereAReflectanceFieldIsMissingOrBroken) {
-  const auto path =
-      written(planeGltf(R"({"name":"cloth","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0.125,1]},)"
-                        R"("extensions":{"WEFT_materials_btf":{"uri":"wool.rf.exr"}}})"));
+  const auto path = writtenGltf(
+      planeGltf(R"({"name":"cloth","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0.125,1]},)"
+                R"("extensions":{"WEFT_materials_btf":{"uri":"wool.rf.exr"}}})"));
   for (const bool broken : {false, true}) {
     if (broken) test::writeText(path.parent_path() / "wool.rf.exr", "this is no field");
     const GltfScene scene = valueOf(loadGltf(path));
@@ -337,7 +307,7 @@ TEST(GltfLoader, ShowsTheMaterialsOwnMapsWhereAReflectanceFieldIsMissingOrBroken
 }
 
 TEST(GltfLoader, DoesNotReadWhatIsReplaced) {
-  const auto path = written(planeGltf(kTextured));
+  const auto path = writtenGltf(planeGltf(kTextured));
   const auto other = std::make_shared<LambertMaterial>();
   for (const char* name : {"base", "*"}) {
     GltfOptions options;
@@ -352,7 +322,7 @@ TEST(GltfLoader, DoesNotReadWhatIsReplaced) {
 }
 
 TEST(GltfLoader, IgnoresBrokenMaterialsThatNothingUses) {
-  EXPECT_TRUE(loadGltf(written(planeGltf(
+  EXPECT_TRUE(loadGltf(writtenGltf(planeGltf(
       R"({"name":"base"},{"name":"unused","extensions":{"WEFT_materials_btf":{"uri":"none.rf.exr"}}})"))));
 }
 
@@ -369,7 +339,8 @@ class BrokenGltf : public testing::TestWithParam<BrokenFile> {};
 
 TEST_P(BrokenGltf, IsRefusedWithAReason) {
   const auto& [name, from, to, message] = GetParam();
-  EXPECT_THAT(failure(replaced(planeGltf(), from, to)), AllOf(HasSubstr("scene.gltf: "), HasSubstr(message)));
+  EXPECT_THAT(failureOfText(replaced(planeGltf(), from, to)),
+              AllOf(HasSubstr("scene.gltf: "), HasSubstr(message)));
 }
 
 const char* const kMeshNode = R"({"mesh":0,"name":"plane"})";
@@ -493,7 +464,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(GltfLoader, RefusesIndicesBeyondTheVertices) {
   BufferBytes buffer;
   buffer.add(std::vector<float>(32)).add<std::uint16_t>({0, 1, 2, 0, 2, 4});
-  EXPECT_THAT(failure(planeGltf(R"({"name":"base"})", buffer.dataUri())), HasSubstr("index 4, but only 4"));
+  EXPECT_THAT(failureOfText(planeGltf(R"({"name":"base"})", buffer.dataUri())),
+              HasSubstr("index 4, but only 4"));
 }
 
 TEST(GltfLoader, RefusesPositionsThatAreNotFinite) {
@@ -501,7 +473,7 @@ TEST(GltfLoader, RefusesPositionsThatAreNotFinite) {
   numbers[5] = std::nanf("");
   BufferBytes buffer;
   buffer.add(numbers).add<std::uint16_t>({0, 1, 2, 0, 2, 3});
-  EXPECT_THAT(failure(planeGltf(R"({"name":"base"})", buffer.dataUri())),
+  EXPECT_THAT(failureOfText(planeGltf(R"({"name":"base"})", buffer.dataUri())),
               HasSubstr("accessor 0 holds a value"));
 }
 
@@ -509,13 +481,13 @@ TEST(GltfLoader, NamesAMissingFileAndAMissingBuffer) {
   const auto missing = loadGltf(testFolder() / "none.gltf");
   ASSERT_FALSE(missing);
   EXPECT_THAT(missing.error().message(), HasSubstr("none.gltf: no such file"));
-  EXPECT_THAT(failure(planeGltf(R"({"name":"base"})", "none.bin")),
+  EXPECT_THAT(failureOfText(planeGltf(R"({"name":"base"})", "none.bin")),
               AllOf(HasSubstr("none.bin: no such file"), HasSubstr("/buffers/0 of scene.gltf")));
   EXPECT_FALSE(loadGltf(testFolder()));
 }
 
 TEST(GltfLoader, DoesNotLookForBuffersInTheWorkingDirectory) {
-  const auto path = written(planeGltf(R"({"name":"base"})", "stray.bin"));
+  const auto path = writtenGltf(planeGltf(R"({"name":"base"})", "stray.bin"));
   const auto folder = std::filesystem::current_path();
   std::filesystem::create_directory(path.parent_path() / "elsewhere");
   std::filesystem::current_path(path.parent_path() / "elsewhere");
@@ -553,7 +525,7 @@ TEST(GltfLoader, SurvivesDamage) {
 TEST(GltfLoader, ReadsSuzi) {
   WEFT_DATA_FILE(path, "gltf/suzi.glb");
   const GltfScene scene = valueOf(loadGltf(path));
-  const auto meshes = meshesOf(scene);
+  const auto meshes = drawnIn(scene);
   ASSERT_EQ(meshes.size(), 1u);
   EXPECT_EQ(meshes[0].mesh->indices.size(), 47232u);
   EXPECT_NEAR(scene.bounds.maximum.x, 0.92973f, 1e-5f);
@@ -569,7 +541,7 @@ TEST(GltfLoader, ReadsFlightHelmetAndWarnsOfItsMissingTextures) {
   GltfOptions options;
   options.replacements["LeatherPartsMat"] = std::make_shared<LambertMaterial>();
   const GltfScene scene = valueOf(loadGltf(path, options));
-  EXPECT_EQ(meshesOf(scene).size(), 6u);
+  EXPECT_EQ(drawnIn(scene).size(), 6u);
   EXPECT_THAT(scene.warnings, IsEmpty());
   EXPECT_THAT(scene.materials, testing::Contains("HoseMat"));
 }
@@ -580,7 +552,7 @@ TEST(GltfLoader, GeneratedTangentsAgreeWithFlightHelmetsOwn) {
   options.replacements["*"] = std::make_shared<LambertMaterial>();
   std::vector<float> angles;
   std::size_t mirrored = 0;
-  for (const Placed& placed : meshesOf(valueOf(loadGltf(path, options)))) {
+  for (const DrawnMesh& placed : drawnIn(valueOf(loadGltf(path, options)))) {
     const Mesh& own = *placed.mesh;
     Mesh generated = own;
     generateTangents(generated);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "GltfText.h"
+#include "GltfScenes.h"
 #include "TestField.h"
 #include "TestScene.h"
 #include "TestSupport.h"
@@ -25,54 +25,20 @@
 namespace weft {
 namespace {
 
+using test::drawnIn;
+using test::DrawnMesh;
+using test::failureOfText;
 using test::GltfText;
+using test::loadedText;
 using test::planeGltf;
+using test::readText;
 using test::replaced;
 using test::testFolder;
 using test::valueOf;
+using test::writtenGltf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::filesystem::path written(const std::string& text, const std::string& name = "scene.gltf") {
-  const std::filesystem::path path = testFolder() / name;
-  test::writeText(path, text);
-  return path;
-}
-
-GltfScene loaded(const std::string& text, const GltfOptions& options = {}) {
-  return valueOf(loadGltf(written(text), options));
-}
-
-std::string failure(const std::string& text, const GltfOptions& options = {}) {
-  const auto scene = loadGltf(written(text), options);
-  return scene ? "it loaded" : scene.error().message();
-}
-
-/// A geometry where it stands in the world, with its material.
-struct Drawn {
-  glm::dmat4 toWorld;
-  std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const Material> material;
-};
-
-void collect(const Node& node, Drawn above, std::vector<Drawn>& drawn) {
-  if (const auto* transform = dynamic_cast<const Transform*>(&node.core()))
-    above.toWorld *= transform->matrix();
-  if (const auto* group = dynamic_cast<const MaterialGroup*>(&node.core()))
-    above.material = group->material();
-  if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core())) {
-    above.mesh = geometry->mesh();
-    drawn.push_back(above);
-  }
-  for (const auto& child : node.children()) collect(*child, above, drawn);
-}
-
-std::vector<Drawn> drawnIn(const GltfScene& scene) {
-  std::vector<Drawn> drawn;
-  collect(*scene.root, {glm::dmat4(1.0), nullptr, nullptr}, drawn);
-  return drawn;
-}
 
 /// The options of the only material.
 PBROptions pbrOf(const GltfScene& scene) {
@@ -81,7 +47,7 @@ PBROptions pbrOf(const GltfScene& scene) {
 }
 
 PBROptions pbrOf(const std::string& material) {
-  return pbrOf(loaded(planeGltf(material)));
+  return pbrOf(loadedText(planeGltf(material)));
 }
 
 // ---- Primitives
@@ -93,9 +59,9 @@ GltfScene pentagonScene(int mode, const std::string& attributes = "") {
   GltfText file;
   const int positions = file.add(kPentagon, "VEC3");
   const int indices = file.add<std::uint16_t>({0, 1, 2, 3, 4}, "SCALAR");
-  return loaded(file.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
-                          std::to_string(positions) + attributes + R"(},"indices":)" +
-                          std::to_string(indices) + R"(,"mode":)" + std::to_string(mode) + "}]}]"));
+  return loadedText(file.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                              std::to_string(positions) + attributes + R"(},"indices":)" +
+                              std::to_string(indices) + R"(,"mode":)" + std::to_string(mode) + "}]}]"));
 }
 
 TEST(GltfScene, TurnsEveryKindOfPrimitiveIntoLists) {
@@ -139,10 +105,10 @@ TEST(GltfScene, RefusesPrimitivesThatAreNotWhole) {
                                                 {6, 0, "less than three"},
                                                 {3, 1, "single vertex"},
                                                 {7, 0, "glTF does not know"}})
-    EXPECT_THAT(
-        failure(file.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
-                          std::to_string(accessor) + R"(},"mode":)" + std::to_string(mode) + "}]}]")),
-        HasSubstr(message));
+    EXPECT_THAT(failureOfText(
+                    file.text(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                              std::to_string(accessor) + R"(},"mode":)" + std::to_string(mode) + "}]}]")),
+                HasSubstr(message));
 }
 
 // ---- Accessors
@@ -166,7 +132,7 @@ TEST(GltfScene, ReadsSparseAccessorsOverOthersAndOverZeros) {
         R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":)" +
         std::to_string(indices) + R"(,"componentType":5121},"values":{"bufferView":)" +
         std::to_string(values) + "}}");
-    const auto mesh = drawnIn(loaded(file.text(triangle(positions)))).at(0).mesh;
+    const auto mesh = drawnIn(loadedText(file.text(triangle(positions)))).at(0).mesh;
     EXPECT_THAT(mesh->positions, ElementsAre(glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
   }
 }
@@ -179,7 +145,7 @@ TEST(GltfScene, ReadsQuantizedAttributes) {
   const int texcoords = file.add<std::uint16_t>({0, 0, 65535, 0, 0, 32768}, "VEC2", R"(,"normalized":true)");
   const std::string attributes =
       R"(,"NORMAL":)" + std::to_string(normals) + R"(,"TEXCOORD_0":)" + std::to_string(texcoords);
-  const GltfScene scene = loaded(
+  const GltfScene scene = loadedText(
       file.text(R"("extensionsRequired":["KHR_mesh_quantization"],)" + triangle(positions, attributes)));
   const auto mesh = drawnIn(scene).at(0).mesh;
   EXPECT_EQ(mesh->positions[2], glm::vec3(0, 100, -50));
@@ -194,11 +160,11 @@ TEST(GltfScene, ReadsVertexColorsWithAndWithoutAlpha) {
   const int translucent = file.add<float>({1, 0, 0, 0.5f, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
   const auto colorOf = [&](int accessor) {
     const std::string text = file.text(triangle(positions, R"(,"COLOR_0":)" + std::to_string(accessor)));
-    return drawnIn(loaded(text)).at(0).mesh->colors.at(0);
+    return drawnIn(loadedText(text)).at(0).mesh->colors.at(0);
   };
   EXPECT_NEAR(glm::distance(colorOf(opaque), glm::vec4(1, 0, 0.2f, 1)), 0.0f, 1e-6f);
   EXPECT_EQ(colorOf(translucent), glm::vec4(1, 0, 0, 0.5f));
-  EXPECT_THAT(drawnIn(loaded(file.text(triangle(positions)))).at(0).mesh->colors, IsEmpty());
+  EXPECT_THAT(drawnIn(loadedText(file.text(triangle(positions)))).at(0).mesh->colors, IsEmpty());
 }
 
 // ---- Materials
@@ -246,7 +212,7 @@ std::filesystem::path texturedPlane(const std::string& material, glm::vec4 tange
   for (int i = 0; i < 16; ++i) tangents.push_back(tangent[i % 4]);
   file.add(tangents, "VEC4");
   file.add<std::uint16_t>({0, 2, 3, 0, 3, 1}, "SCALAR");
-  const auto path = written(file.text(
+  const auto path = writtenGltf(file.text(
       R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,)"
       R"("TEXCOORD_3":3,"TANGENT":4},"indices":5,"material":0}]}],"materials":[)" +
       material + R"(],"textures":[{"source":0},{"source":0}],"images":[{"uri":"picture.png"}])"));
@@ -338,7 +304,7 @@ std::string animated(const std::string& path, const std::string& interpolation,
 }
 
 glm::vec3 cornerAt(const std::string& text, double time, glm::vec3 corner) {
-  const Drawn drawn = drawnIn(loaded(text, {.time = time})).at(0);
+  const DrawnMesh drawn = drawnIn(loadedText(text, {.time = time})).at(0);
   return glm::vec3(drawn.toWorld * glm::vec4(corner, 1.0f));
 }
 
@@ -370,26 +336,31 @@ TEST(GltfScene, SamplesAnimationsAtATime) {
   for (const float time : {0.0f, 0.5f, 1.0f, 1.7f, 2.0f})
     expectNear(cornerAt(spline, time, {0, 0, 0}), {time * time * time, 0, 0});
 
-  const GltfScene still = loaded(linear);
+  const GltfScene still = loadedText(linear);
   EXPECT_THAT(still.warnings, ElementsAre(HasSubstr("no time is given")));
   ASSERT_EQ(still.animations.size(), 1u);
   EXPECT_EQ(still.animations[0].name, "move");
   EXPECT_EQ(still.animations[0].seconds, 4.0);
-  EXPECT_THAT(failure(linear, {.time = 0.0, .animation = "run"}), HasSubstr("there is no animation \"run\""));
-  EXPECT_THAT(failure(planeGltf(), {.time = 0.0}), HasSubstr("no animation"));
+  EXPECT_THAT(failureOfText(linear, {.time = 0.0, .animation = "run"}),
+              HasSubstr("there is no animation \"run\""));
+  EXPECT_THAT(failureOfText(planeGltf(), {.time = 0.0}), HasSubstr("no animation"));
 }
 
 TEST(GltfScene, RefusesBrokenAnimations) {
   const GltfOptions options{.time = 0.5};
-  EXPECT_THAT(failure(animated("translation", "LINEAR", {1, 1}, std::vector<float>(6), "VEC3"), options),
-              HasSubstr("do not increase"));
-  EXPECT_THAT(failure(animated("translation", "LINEAR", {0, 1}, std::vector<float>(3), "VEC3"), options),
-              HasSubstr("as many values as keys"));
-  EXPECT_THAT(failure(animated("rotation", "CUBICSPLINE", {0, 1}, std::vector<float>(8), "VEC4"), options),
-              HasSubstr("as many values as keys"));
-  EXPECT_THAT(failure(animated("translation", "SMOOTH", {0, 1}, std::vector<float>(6), "VEC3"), options),
-              HasSubstr("SMOOTH"));
-  EXPECT_THAT(failure(animated("rotation", "LINEAR", {0, 1}, std::vector<float>(6), "VEC3"), options),
+  EXPECT_THAT(
+      failureOfText(animated("translation", "LINEAR", {1, 1}, std::vector<float>(6), "VEC3"), options),
+      HasSubstr("do not increase"));
+  EXPECT_THAT(
+      failureOfText(animated("translation", "LINEAR", {0, 1}, std::vector<float>(3), "VEC3"), options),
+      HasSubstr("as many values as keys"));
+  EXPECT_THAT(
+      failureOfText(animated("rotation", "CUBICSPLINE", {0, 1}, std::vector<float>(8), "VEC4"), options),
+      HasSubstr("as many values as keys"));
+  EXPECT_THAT(
+      failureOfText(animated("translation", "SMOOTH", {0, 1}, std::vector<float>(6), "VEC3"), options),
+      HasSubstr("SMOOTH"));
+  EXPECT_THAT(failureOfText(animated("rotation", "LINEAR", {0, 1}, std::vector<float>(6), "VEC3"), options),
               HasSubstr("components"));
 }
 
@@ -410,11 +381,11 @@ TEST(GltfScene, MorphsMeshesByTheirWeights) {
         R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}]}])");
   };
   const auto meshOf = [&](const GltfScene& scene) { return drawnIn(scene).at(0).mesh; };
-  EXPECT_EQ(meshOf(loaded(text("", "")))->positions[1], glm::vec3(1, 0, 0));
-  EXPECT_EQ(meshOf(loaded(text("", R"(,"weights":[0.5,0])")))->positions[1], glm::vec3(1, 0, 0.5f));
-  EXPECT_EQ(meshOf(loaded(text(R"(,"weights":[0,1])", R"(,"weights":[0.5,0])")))->positions[1],
+  EXPECT_EQ(meshOf(loadedText(text("", "")))->positions[1], glm::vec3(1, 0, 0));
+  EXPECT_EQ(meshOf(loadedText(text("", R"(,"weights":[0.5,0])")))->positions[1], glm::vec3(1, 0, 0.5f));
+  EXPECT_EQ(meshOf(loadedText(text(R"(,"weights":[0,1])", R"(,"weights":[0.5,0])")))->positions[1],
             glm::vec3(3, 0, 0));
-  const auto moving = meshOf(loaded(text("", ""), {.time = 0.5}));
+  const auto moving = meshOf(loadedText(text("", ""), {.time = 0.5}));
   EXPECT_EQ(moving->positions[1], glm::vec3(1.5f, 0, 0.5f));
   EXPECT_NEAR(glm::distance(moving->normals[1], glm::normalize(glm::vec3(0.5f, 0, 1))), 0.0f, 1e-6f);
 }
@@ -438,27 +409,27 @@ std::string skinned(const std::string& jointNode, const std::string& jointNumber
       number(normals) + R"(,"JOINTS_0":)" + number(joints) + R"(,"WEIGHTS_0":)" + number(weights) + "}}]}]");
 }
 
-glm::vec3 inWorld(const Drawn& drawn, std::size_t vertex) {
+glm::vec3 inWorld(const DrawnMesh& drawn, std::size_t vertex) {
   return glm::vec3(drawn.toWorld * glm::dvec4(drawn.mesh->positions[vertex], 1.0));
 }
 
 TEST(GltfScene, SkinsMeshesInTheWorld) {
   // The mesh's own node counts only as the joints' parent.
-  const Drawn straight = drawnIn(loaded(skinned(R"({"translation":[0,1,0]})"))).at(0);
+  const DrawnMesh straight = drawnIn(loadedText(skinned(R"({"translation":[0,1,0]})"))).at(0);
   expectNear(inWorld(straight, 0), {14, 9, 9});
   expectNear(inWorld(straight, 1), {15, 9, 9});
   expectNear(inWorld(straight, 2), {14, 11, 9});
   // The second joint bends by a quarter turn about X: what is one above it comes one before it.
-  const Drawn bent =
-      drawnIn(loaded(skinned(R"({"translation":[0,1,0],"rotation":[0.70710678,0,0,0.70710678]})"))).at(0);
+  const DrawnMesh bent =
+      drawnIn(loadedText(skinned(R"({"translation":[0,1,0],"rotation":[0.70710678,0,0,0.70710678]})"))).at(0);
   expectNear(inWorld(bent, 0), {14, 9, 9});
   expectNear(inWorld(bent, 2), {14, 10, 10});
   expectNear(bent.mesh->normals[2], {0, -1, 0});
   expectNear(inWorld(bent, 1), {15, 9.5f, 8.5f});
 
-  EXPECT_THAT(failure(skinned("{}", "[1]")), HasSubstr("a joint that its skin does not have"));
-  EXPECT_THAT(failure(skinned(R"({},{})", "[1,3]")), HasSubstr("not in the scene"));
-  EXPECT_THAT(failure(skinned("{}", "[1,2,1]")), HasSubstr("less matrices than joints"));
+  EXPECT_THAT(failureOfText(skinned("{}", "[1]")), HasSubstr("a joint that its skin does not have"));
+  EXPECT_THAT(failureOfText(skinned(R"({},{})", "[1,3]")), HasSubstr("not in the scene"));
+  EXPECT_THAT(failureOfText(skinned("{}", "[1,2,1]")), HasSubstr("less matrices than joints"));
 }
 
 // ---- Data and hooks
@@ -472,7 +443,7 @@ const std::string kForeign = replaced(
     R"({"extensionsUsed":["ACME_paint","ACME_door"],"extensions":{"ACME_door":{"hinges":[1,2.5]}},"asset")");
 
 TEST(GltfScene, KeepsUnknownExtensionsAndExtrasAsData) {
-  const GltfScene scene = loaded(kForeign);
+  const GltfScene scene = loadedText(kForeign);
   const auto is = [](const std::string& place, const std::string& name, const std::string& json) {
     return testing::AllOf(testing::Field(&GltfData::place, place), testing::Field(&GltfData::name, name),
                           testing::Field(&GltfData::json, json));
@@ -487,14 +458,14 @@ TEST(GltfScene, KeepsUnknownExtensionsAndExtrasAsData) {
 TEST(GltfScene, HandsTheProgramItsOwnExtensions) {
   const std::string required =
       replaced(kForeign, R"("extensionsUsed")", R"("extensionsRequired":["ACME_door"],"extensionsUsed")");
-  EXPECT_THAT(failure(required), HasSubstr("does not know: ACME_door"));
+  EXPECT_THAT(failureOfText(required), HasSubstr("does not know: ACME_door"));
   std::vector<std::pair<std::string, Node*>> calls;
   GltfOptions options;
   options.extensions["ACME_door"] = [&](const GltfData& data, Node* node) -> Result<void> {
     calls.emplace_back(data.place + data.json, node);
     return {};
   };
-  const GltfScene scene = loaded(required, options);
+  const GltfScene scene = loadedText(required, options);
   EXPECT_THAT(calls,
               testing::UnorderedElementsAre(
                   std::pair(std::string(R"({"hinges":[1,2.5]})"), static_cast<Node*>(nullptr)),
@@ -504,7 +475,7 @@ TEST(GltfScene, HandsTheProgramItsOwnExtensions) {
   options.extensions["ACME_door"] = [](const GltfData&, Node*) -> Result<void> {
     return fail("it is locked");
   };
-  EXPECT_THAT(failure(required, options), HasSubstr("it is locked"));
+  EXPECT_THAT(failureOfText(required, options), HasSubstr("it is locked"));
 }
 
 TEST(GltfScene, LetsTheProgramMakeMaterials) {
@@ -517,29 +488,23 @@ TEST(GltfScene, LetsTheProgramMakeMaterials) {
     if (json["extensions"]["ACME_paint"]["coats"] == 2) return own;
     return nullptr;
   };
-  EXPECT_EQ(drawnIn(loaded(kForeign, options)).at(0).material, own);
+  EXPECT_EQ(drawnIn(loadedText(kForeign, options)).at(0).material, own);
   EXPECT_EQ(seen.name, "base");
   EXPECT_EQ(seen.file.filename(), "scene.gltf");
   EXPECT_EQ(nlohmann::json::parse(seen.json)["extras"]["shop"], 7);
-  const GltfScene three = loaded(replaced(kForeign, R"("coats":2)", R"("coats":3)"), options);
+  const GltfScene three = loadedText(replaced(kForeign, R"("coats":2)", R"("coats":3)"), options);
   EXPECT_TRUE(dynamic_cast<const PBRMaterial*>(drawnIn(three).at(0).material.get())) << "Weft's";
   options.makeMaterial = [](const GltfMaterial&) -> Result<std::shared_ptr<const Material>> {
     return fail("no paint left");
   };
-  EXPECT_THAT(failure(kForeign, options), HasSubstr("no paint left"));
+  EXPECT_THAT(failureOfText(kForeign, options), HasSubstr("no paint left"));
 }
 
 // ---- Writing the extension
 // --------------------------------------------------------------------------------
 
-std::string textOf(const std::filesystem::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 TEST(BtfExtension, IsAddedAndEverythingElseStays) {
-  const auto source = written(kForeign);
+  const auto source = writtenGltf(kForeign);
   const auto target = source.parent_path() / "dressed.gltf";
   std::filesystem::create_directory(source.parent_path() / "fields");
   const auto field = source.parent_path() / "fields" / "my wool#1.rf.exr";
@@ -548,7 +513,7 @@ TEST(BtfExtension, IsAddedAndEverythingElseStays) {
   const GltfScene scene = valueOf(loadGltf(target));
   EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(drawnIn(scene).at(0).material.get()));
 
-  auto json = nlohmann::ordered_json::parse(textOf(target));
+  auto json = nlohmann::ordered_json::parse(readText(target));
   const auto extension = json["materials"][0]["extensions"]["WEFT_materials_btf"];
   EXPECT_EQ(extension["uri"], "fields/my%20wool%231.rf.exr");
   EXPECT_EQ(extension["scale"], nlohmann::json({4.0, 2.5}));
@@ -559,28 +524,28 @@ TEST(BtfExtension, IsAddedAndEverythingElseStays) {
 
   // Once more, in place, keeps what somebody else added.
   test::writeText(target,
-                  replaced(textOf(target), R"("texCoord":0)", R"("texCoord":0,"extras":{"kept":true})"));
+                  replaced(readText(target), R"("texCoord":0)", R"("texCoord":0,"extras":{"kept":true})"));
   test::requireDone(writeBtfExtension(target, target, {{"base", {field, {1, 1}}}}));
-  json = nlohmann::ordered_json::parse(textOf(target));
+  json = nlohmann::ordered_json::parse(readText(target));
   EXPECT_EQ(json["materials"][0]["extensions"]["WEFT_materials_btf"]["extras"]["kept"], true);
   EXPECT_EQ(json["extensionsUsed"].size(), 3u);
 }
 
 TEST(BtfExtension, LeavesTheBinaryChunkAsItIs) {
   const std::string whole = test::planeGlb();
-  const auto source = written(whole, "scene.glb");
+  const auto source = writtenGltf(whole, "scene.glb");
   const auto target = source.parent_path() / "elsewhere" / "dressed.glb";
   std::filesystem::create_directory(target.parent_path());
   const auto field = source.parent_path() / "wool.rf.exr";
   test::requireDone(writeReflectanceField(test::testField(), field));
   test::requireDone(writeBtfExtension(source, target, {{"base", {field}}}));
-  EXPECT_TRUE(textOf(target).ends_with(whole.substr(whole.find("BIN") - 4)));
-  EXPECT_EQ(textOf(target).size() % 4, 0u);
+  EXPECT_TRUE(readText(target).ends_with(whole.substr(whole.find("BIN") - 4)));
+  EXPECT_EQ(readText(target).size() % 4, 0u);
   EXPECT_TRUE(dynamic_cast<const BTFMaterial*>(drawnIn(valueOf(loadGltf(target))).at(0).material.get()));
 }
 
 TEST(BtfExtension, RefusesWhatItCannotKeep) {
-  const auto source = written(planeGltf(R"({"name":"base"})", "my.bin"));
+  const auto source = writtenGltf(planeGltf(R"({"name":"base"})", "my.bin"));
   const auto folder = source.parent_path();
   const auto message = [&](const std::filesystem::path& target, const std::string& name) {
     const auto result = writeBtfExtension(source, target, {{name, {folder / "x.rf.exr"}}});
@@ -633,7 +598,7 @@ std::string richScene() {
 
 TEST(GltfScene, SurvivesDamageOfEverythingItReads) {
   const std::string whole = richScene();
-  const GltfScene scene = loaded(whole, {.time = 0.5});
+  const GltfScene scene = loadedText(whole, {.time = 0.5});
   EXPECT_EQ(drawnIn(scene).at(0).mesh->indices.size(), 6u);
   EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("base colour")))
       << "its image is a PNG signature and nothing more";

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using test::kPi;
 
 class LambertTest : public test::GlTest {
  protected:

@@ -21,7 +21,7 @@
 namespace weft::test {
 namespace {
 
-constexpr int kSize = 64;
+constexpr int kPixelsASide = 64;
 const glm::vec3 kTowardsLight(0.6f, 0.0f, 0.8f);
 
 // Every texel, layer and place in the table another value.
@@ -74,7 +74,7 @@ class OwnModel : public GlTest {
                          glm::vec4(0, 0, 0, 1));
     scene.addChild(std::make_shared<Transform>(turn))
         ->addChild(std::make_shared<DirectionalLight>(glm::vec3(glm::pi<float>())));
-    return picture(scene, kSize, kSize);
+    return picture(scene, kPixelsASide, kPixelsASide);
   }
 
   std::filesystem::path folder;
@@ -88,12 +88,13 @@ TEST_F(OwnModel, IsFittedWrittenReadLoadedFromGltfAndDrawnAsItsTwinSays) {
     const FloatImage picture = drawn(RampModel::registry());
     const HemisphereTriangulation& triangulation = field.formula().triangulation();
     const LayerLookup lookup = LayerLookup::create(triangulation);
-    for (int y = kSize / 4; y < 3 * kSize / 4; ++y)  // which the plane covers
-      for (int x = kSize / 4; x < 3 * kSize / 4; ++x) {
-        const glm::vec3 position(-1.0f + 2.0f * (static_cast<float>(x) + 0.5f) / kSize,
-                                 1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, 0.0f);
+    for (int y = kPixelsASide / 4; y < 3 * kPixelsASide / 4; ++y)  // which the plane covers
+      for (int x = kPixelsASide / 4; x < 3 * kPixelsASide / 4; ++x) {
+        const glm::vec3 position(-1.0f + 2.0f * (static_cast<float>(x) + 0.5f) / kPixelsASide,
+                                 1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kPixelsASide, 0.0f);
         const glm::vec3 view = glm::normalize(glm::vec3(0, 0, 2) - position);
-        const glm::vec3 value = field.evaluate((x - kSize / 4) * 8 / kSize, (y - kSize / 4) * 8 / kSize,
+        const glm::vec3 value = field.evaluate((x - kPixelsASide / 4) * 8 / kPixelsASide,
+                                               (y - kPixelsASide / 4) * 8 / kPixelsASide,
                                                lookup.locate(triangulation, view), kTowardsLight, view);
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(picture.at(x, y, c), value[c], 5e-4f) << x << ", " << y;
       }

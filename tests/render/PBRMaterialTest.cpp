@@ -21,7 +21,7 @@
 namespace weft {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
+using test::kPi;
 
 // ---- The formulas of glTF 2.0, appendix B, as printed there, in double precision
 // --------------------------
@@ -59,12 +59,12 @@ glm::dvec3 appendixB(const PBROptions& material, glm::dvec3 n, glm::dvec3 v, glm
 }
 
 /// Turns a node's -Z, along which a light shines, against `towardsLight` (not along Y).
-glm::mat4 shiningFrom(glm::vec3 towardsLight) {
+glm::mat4 lookingAlong(glm::vec3 towardsLight) {
   return glm::inverse(glm::lookAt(glm::vec3(0), -towardsLight, glm::vec3(0, 1, 0)));
 }
 
 std::shared_ptr<Node> sun(glm::vec3 towardsLight, glm::vec3 irradiance) {
-  auto node = std::make_shared<Node>(std::make_shared<Transform>(shiningFrom(towardsLight)));
+  auto node = std::make_shared<Node>(std::make_shared<Transform>(lookingAlong(towardsLight)));
   node->addChild(std::make_shared<DirectionalLight>(irradiance));
   return node;
 }

@@ -94,10 +94,10 @@ constexpr int kSamples = 4 * kTexels;
 
 /// The smooth relief of a place, x to the right and y up, both with a period of 1, and how it rises
 /// with x and y: without symmetry.
-struct Hills {
+struct RoundHills {
   float height, alongX, alongY;
 
-  static Hills at(float x, float y) {
+  static RoundHills at(float x, float y) {
     const float turn = glm::two_pi<float>();
     const float a = turn * x;
     const float b = turn * (2.0f * y + x);
@@ -112,8 +112,8 @@ HeightField hills() {
   HeightField field(kSamples, kSamples, 1.0f / kSamples);
   for (int row = 0; row < kSamples; ++row)
     for (int column = 0; column < kSamples; ++column)
-      field.at(column, row).height = Hills::at((static_cast<float>(column) + 0.5f) / kSamples,
-                                               -(static_cast<float>(row) + 0.5f) / kSamples)
+      field.at(column, row).height = RoundHills::at((static_cast<float>(column) + 0.5f) / kSamples,
+                                                    -(static_cast<float>(row) + 0.5f) / kSamples)
                                          .height;
   return field;
 }
@@ -135,12 +135,13 @@ BakeOptions fewDirections() {
 }
 
 /// How well brightness that depends on the side of a light follows a slope, over all pixels.
-double slopeScore(const FloatImage& plus, const FloatImage& minus, float Hills::*slope) {
+double slopeScore(const FloatImage& plus, const FloatImage& minus, float RoundHills::*slope) {
   std::vector<double> difference, descent;
   for (int y = 0; y < plus.height(); ++y)
     for (int x = 0; x < plus.width(); ++x) {
-      const Hills place = Hills::at((static_cast<float>(x) + 0.5f) / static_cast<float>(plus.width()),
-                                    -(static_cast<float>(y) + 0.5f) / static_cast<float>(plus.height()));
+      const RoundHills place =
+          RoundHills::at((static_cast<float>(x) + 0.5f) / static_cast<float>(plus.width()),
+                         -(static_cast<float>(y) + 0.5f) / static_cast<float>(plus.height()));
       difference.push_back(static_cast<double>(plus.at(x, y, 0) - minus.at(x, y, 0)));
       descent.push_back(static_cast<double>(-(place.*slope)));
     }
@@ -155,10 +156,10 @@ TEST_P(BakedRelief, IsBrightWhereTheSurfaceFacesTheLight) {
   const FloatImage fromMinusX = topView(material, 30, 180);
   const FloatImage fromPlusY = topView(material, 30, 90);
   const FloatImage fromMinusY = topView(material, 30, 270);
-  EXPECT_GT(printed("hills.x", slopeScore(fromPlusX, fromMinusX, &Hills::alongX)), 0.95);
-  EXPECT_GT(printed("hills.y", slopeScore(fromPlusY, fromMinusY, &Hills::alongY)), 0.95);
-  EXPECT_LT(std::abs(slopeScore(fromPlusX, fromMinusX, &Hills::alongY)), 0.3);
-  EXPECT_LT(std::abs(slopeScore(fromPlusY, fromMinusY, &Hills::alongX)), 0.3);
+  EXPECT_GT(printed("hills.x", slopeScore(fromPlusX, fromMinusX, &RoundHills::alongX)), 0.95);
+  EXPECT_GT(printed("hills.y", slopeScore(fromPlusY, fromMinusY, &RoundHills::alongY)), 0.95);
+  EXPECT_LT(std::abs(slopeScore(fromPlusX, fromMinusX, &RoundHills::alongY)), 0.3);
+  EXPECT_LT(std::abs(slopeScore(fromPlusY, fromMinusY, &RoundHills::alongX)), 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, BakedRelief, testing::Values("rfp", "rfnl"),

@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-std::shared_ptr<Transform> moved(glm::vec3 by, float scale = 1.0f) {
+std::shared_ptr<Transform> transformBy(glm::vec3 by, float scale = 1.0f) {
   return std::make_shared<Transform>(glm::scale(glm::translate(glm::mat4(1), by), glm::vec3(scale)));
 }
 
@@ -32,7 +32,7 @@ class RenderStatisticsTest : public test::GlTest {
     const auto one = std::make_shared<Geometry>(test::square());
     for (int i = 0; i < kSide * kSide; ++i) {
       const glm::vec2 place = glm::vec2(i % kSide, i / kSide) + 0.5f - 0.5f * kSide;
-      places.push_back(moved({place * (2.0f / kSide), 0.0f}, 1.0f / kSide));
+      places.push_back(transformBy({place * (2.0f / kSide), 0.0f}, 1.0f / kSide));
       root.addChild(places.back())
           ->addChild(groups[static_cast<std::size_t>(i % materials)])
           ->addChild(shared ? one : std::make_shared<Geometry>(test::square()));
@@ -116,7 +116,7 @@ TEST_F(RenderStatisticsTest, ASwitchShowsItsChoice) {
   const auto choice = std::make_shared<Switch>(1);
   const auto node = root.addChild(choice);
   for (const float grey : {0.5f, 0.75f})
-    node->addChild(moved({0, 0, 0.5f}))
+    node->addChild(transformBy({0, 0, 0.5f}))
         ->addChild(test::dressed(std::make_shared<LambertMaterial>(LambertOptions{glm::vec4(grey)})));
   const auto lamp = node->addChild(std::make_shared<DirectionalLight>(glm::vec3(3.1415927f)));
   const auto seen = [&](int shownChild) {
@@ -138,7 +138,7 @@ TEST_F(RenderStatisticsTest, ASwitchShowsItsChoice) {
 
 TEST_F(RenderStatisticsTest, LevelsOfDetailGoByTheDistanceToTheEye) {
   root.addChild(std::make_shared<DirectionalLight>(glm::vec3(3.1415927f)));
-  const auto levels = root.addChild(moved({0, 0, 1}))
+  const auto levels = root.addChild(transformBy({0, 0, 1}))
                           ->addChild(std::make_shared<LOD>(std::vector<float>{3, 6}, glm::vec3(0, 0, -1)));
   for (const float grey : {0.25f, 0.5f})
     levels->addChild(test::dressed(std::make_shared<LambertMaterial>(LambertOptions{glm::vec4(grey)})));

@@ -27,16 +27,16 @@ void PrintTo(const World& world, std::ostream* out) {
        << world.origin.z;
 }
 
-std::shared_ptr<Transform> moved(const glm::dvec3& by, double scale = 1.0) {
+std::shared_ptr<Transform> placedAt(const glm::dvec3& by, double scale = 1.0) {
   return std::make_shared<Transform>(glm::scale(glm::translate(glm::dmat4(1.0), by), glm::dvec3(scale)));
 }
 
 /// A ball and a mirrored square, shiny, under every kind of light.
 std::shared_ptr<Node> shinyScene(const World& world) {
-  auto root = std::make_shared<Node>(moved(world.origin, world.scale));
+  auto root = std::make_shared<Node>(placedAt(world.origin, world.scale));
   const auto shiny = std::make_shared<PBRMaterial>(
       PBROptions{.baseColor = {0.8f, 0.5f, 0.2f, 1.0f}, .metallic = 0.3f, .roughness = 0.3f});
-  root->addChild(moved({-0.3, 0.1, 0.4}, 0.5))
+  root->addChild(placedAt({-0.3, 0.1, 0.4}, 0.5))
       ->addChild(test::dressed(shiny, std::make_shared<Mesh>(makeSphere(16))));
   const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(0.6, 1.0, 0.1));
   root->addChild(std::make_shared<Transform>(glm::scale(turned, glm::dvec3(-0.9, 0.8, 1.0))))
@@ -45,8 +45,8 @@ std::shared_ptr<Node> shinyScene(const World& world) {
   const auto area = static_cast<float>(world.scale * world.scale);
   const auto point = std::make_shared<PointLight>(area * glm::vec3(3.0f, 2.0f, 1.0f));
   point->range = static_cast<float>(7.0 * world.scale);
-  root->addChild(moved({1.0, 1.5, 2.0}))->addChild(point);
-  root->addChild(moved({-0.5, 0.3, 3.0}))
+  root->addChild(placedAt({1.0, 1.5, 2.0}))->addChild(point);
+  root->addChild(placedAt({-0.5, 0.3, 3.0}))
       ->addChild(std::make_shared<SpotLight>(area * glm::vec3(2.0f, 4.0f, 6.0f), 0.05f, 0.4f));
   root->addChild(std::make_shared<Transform>(glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 1, 0))))
       ->addChild(std::make_shared<DirectionalLight>(glm::vec3(0.5f)));
@@ -111,7 +111,7 @@ TEST_F(ScaleTest, VerticesMayBeFarFromTheirOwnOrigin) {
   auto farLit = std::make_shared<Node>(std::make_shared<DirectionalLight>(glm::vec3(3.0f)));
   farLit->addChild(test::dressed(material, mesh));
   EXPECT_EQ(differing(drawn(*farLit, cameraIn({far}, false)), drawn(*lit, cameraIn({}, false))), 0.0);
-  auto back = std::make_shared<Node>(moved(-glm::dvec3(far)));
+  auto back = std::make_shared<Node>(placedAt(-glm::dvec3(far)));
   back->addChild(farLit);
   EXPECT_EQ(differing(drawn(*back, cameraIn({}, false)), drawn(*lit, cameraIn({}, false))), 0.0);
 }
@@ -119,9 +119,10 @@ TEST_F(ScaleTest, VerticesMayBeFarFromTheirOwnOrigin) {
 /// Squares side by side, the middle one at the world's place, and after it one that is only seen
 /// from nearby.
 std::shared_ptr<Node> rowOfSquares(const World& world) {
-  auto root = std::make_shared<Node>(moved(world.origin, world.scale));
+  auto root = std::make_shared<Node>(placedAt(world.origin, world.scale));
   const auto material = std::make_shared<LambertMaterial>();
-  for (int i = -20; i <= 20; ++i) root->addChild(moved({2.0 * i, 0, 0}))->addChild(test::dressed(material));
+  for (int i = -20; i <= 20; ++i)
+    root->addChild(placedAt({2.0 * i, 0, 0}))->addChild(test::dressed(material));
   const auto levels = std::make_shared<LOD>(std::vector<float>{static_cast<float>(2.6 * world.scale)});
   root->addChild(levels)->addChild(test::dressed(material));
   return root;
@@ -150,7 +151,7 @@ TEST_F(ScaleTest, ShadersOfTheApplicationsFindPlacesInTheWorld) {
   const auto material = std::make_shared<ChunkMaterial>();
   material->setChunk(ProgramSlot,
                      std::make_shared<ProgramChunk>(ShaderSource{"mesh.vert", "place.frag", {}, {}, folder}));
-  auto root = std::make_shared<Node>(moved({10, 20, 30}));
+  auto root = std::make_shared<Node>(placedAt({10, 20, 30}));
   root->addChild(test::dressed(material));
   Camera camera = test::squareCamera();
   camera.view = glm::translate(camera.view, glm::dvec3(-10, -20, -30));

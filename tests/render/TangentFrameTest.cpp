@@ -10,14 +10,14 @@
 namespace weft {
 namespace {
 
-struct Frame {
+struct VertexFrame {
   glm::vec3 t, b, n;
 };
 
 /// What shaders/mesh.vert and shaders/tangent_frame.glsl make of a mesh.
 class TangentFrameTest : public test::GlTest {
  protected:
-  Frame frameOf(std::shared_ptr<const Mesh> mesh, const glm::mat4& model = glm::mat4(1.0f)) {
+  VertexFrame frameOf(std::shared_ptr<const Mesh> mesh, const glm::mat4& model = glm::mat4(1.0f)) {
     return {axis("t", mesh, model), axis("b", mesh, model), axis("n", mesh, model)};
   }
 
@@ -41,13 +41,13 @@ class TangentFrameTest : public test::GlTest {
   std::filesystem::path folder = test::testFolder();
 };
 
-void expectNear(glm::vec3 actual, glm::vec3 expected) {
+void expectSame(glm::vec3 actual, glm::vec3 expected) {
   EXPECT_LT(glm::distance(actual, expected), 1e-5f)
       << actual.x << ' ' << actual.y << ' ' << actual.z << " is not " << expected.x << ' ' << expected.y
       << ' ' << expected.z;
 }
 
-void expectOrthonormal(const Frame& frame) {
+void expectOrthonormal(const VertexFrame& frame) {
   EXPECT_NEAR(glm::length(frame.t), 1.0f, 1e-5f);
   EXPECT_NEAR(glm::length(frame.b), 1.0f, 1e-5f);
   EXPECT_NEAR(glm::length(frame.n), 1.0f, 1e-5f);
@@ -57,33 +57,34 @@ void expectOrthonormal(const Frame& frame) {
 }
 
 TEST_F(TangentFrameTest, UprightSquareHasTheWorldAxes) {
-  const Frame frame = frameOf(test::square());
-  expectNear(frame.t, {1, 0, 0});
-  expectNear(frame.b, {0, 1, 0});
-  expectNear(frame.n, {0, 0, 1});
+  const VertexFrame frame = frameOf(test::square());
+  expectSame(frame.t, {1, 0, 0});
+  expectSame(frame.b, {0, 1, 0});
+  expectSame(frame.n, {0, 0, 1});
 }
 
 TEST_F(TangentFrameTest, MirroredTextureTurnsTheTangentAndKeepsUpUp) {
   auto mesh = test::square();
   mesh->tangents.assign(4, {-1, 0, 0, -1});
-  const Frame frame = frameOf(mesh);
-  expectNear(frame.t, {-1, 0, 0});
-  expectNear(frame.b, {0, 1, 0});
-  expectNear(frame.n, {0, 0, 1});
+  const VertexFrame frame = frameOf(mesh);
+  expectSame(frame.t, {-1, 0, 0});
+  expectSame(frame.b, {0, 1, 0});
+  expectSame(frame.n, {0, 0, 1});
 }
 
 TEST_F(TangentFrameTest, MirroringTransformDoesTheSame) {
-  const Frame frame = frameOf(test::square(), glm::scale(glm::mat4(1.0f), glm::vec3(-2, 1, 1)));
-  expectNear(frame.t, {-1, 0, 0});
-  expectNear(frame.b, {0, 1, 0});
-  expectNear(frame.n, {0, 0, 1});
+  const VertexFrame frame = frameOf(test::square(), glm::scale(glm::mat4(1.0f), glm::vec3(-2, 1, 1)));
+  expectSame(frame.t, {-1, 0, 0});
+  expectSame(frame.b, {0, 1, 0});
+  expectSame(frame.n, {0, 0, 1});
 }
 
 TEST_F(TangentFrameTest, BehindOnlyTheNormalTurns) {
-  const Frame frame = frameOf(test::square(), glm::rotate(glm::mat4(1.0f), glm::radians(180.0f), {0, 1, 0}));
-  expectNear(frame.t, {-1, 0, 0});
-  expectNear(frame.b, {0, 1, 0});
-  expectNear(frame.n, {0, 0, 1});
+  const VertexFrame frame =
+      frameOf(test::square(), glm::rotate(glm::mat4(1.0f), glm::radians(180.0f), {0, 1, 0}));
+  expectSame(frame.t, {-1, 0, 0});
+  expectSame(frame.b, {0, 1, 0});
+  expectSame(frame.n, {0, 0, 1});
 }
 
 TEST_F(TangentFrameTest, SkewedAttributesBecomeOrthonormal) {
@@ -98,9 +99,9 @@ TEST_F(TangentFrameTest, TangentOfNoUseIsReplaced) {
   for (const glm::vec4& useless : {glm::vec4(0, 0, 0, 1), glm::vec4(0, 0, 1, 1), glm::vec4(0, 0, -1, -1)}) {
     mesh = std::make_shared<Mesh>(*mesh);
     mesh->tangents.assign(4, useless);
-    const Frame frame = frameOf(mesh);
+    const VertexFrame frame = frameOf(mesh);
     expectOrthonormal(frame);
-    expectNear(frame.n, {0, 0, 1});
+    expectSame(frame.n, {0, 0, 1});
   }
 }
 

@@ -8,6 +8,15 @@
 
 namespace weft::test {
 
+/// All lights of a view, as BtfBaker::bakeView() leaves them.
+inline std::vector<float> bakedView(const BtfBaker& baker, int view) {
+  const BakeOptions& options = baker.options();
+  std::vector<float> out(options.lights.size() * static_cast<std::size_t>(options.width * options.height) *
+                         3);
+  baker.bakeView(view, out);
+  return out;
+}
+
 /// A height field ray-traced into memory, to be fitted without the detour of a file. Small ones
 /// only.
 class BakedSource : public BtfSource {
@@ -20,11 +29,8 @@ class BakedSource : public BtfSource {
     description_.encoding = Encoding::Gamma22;
     description_.name = "baked";
     const BtfBaker baker = valueOf(BtfBaker::create(field, options));
-    views_.resize(options.views.size());
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-      views_[view].resize(options.lights.size() * description_.texels() * 3);
-      baker.bakeView(static_cast<int>(view), views_[view]);
-    }
+    for (std::size_t view = 0; view < options.views.size(); ++view)
+      views_.push_back(bakedView(baker, static_cast<int>(view)));
   }
 
   const BtfDescription& description() const override { return description_; }

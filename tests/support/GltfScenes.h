@@ -20,26 +20,34 @@ inline std::filesystem::path writtenGltf(std::string_view text, const std::strin
   return path;
 }
 
+inline GltfScene loadedText(std::string_view text, const GltfOptions& options = {}) {
+  return valueOf(loadGltf(writtenGltf(text), options));
+}
+
 inline GltfScene loadedGltf(const Json& file, const GltfOptions& options = {}) {
-  return valueOf(loadGltf(writtenGltf(file.dump()), options));
+  return loadedText(file.dump(), options);
 }
 
 /// Why a file is refused.
-inline std::string failureOfGltf(const Json& file, const GltfOptions& options = {}) {
-  const auto scene = loadGltf(writtenGltf(file.dump()), options);
+inline std::string failureOfText(std::string_view text, const GltfOptions& options = {}) {
+  const auto scene = loadGltf(writtenGltf(text), options);
   return scene ? "it loaded" : scene.error().message();
+}
+
+inline std::string failureOfGltf(const Json& file, const GltfOptions& options = {}) {
+  return failureOfText(file.dump(), options);
 }
 
 /// A geometry where it stands in the world, with its material.
 struct DrawnMesh {
-  glm::mat4 toWorld{1.0f};
+  glm::dmat4 toWorld{1.0};
   std::shared_ptr<const Mesh> mesh{};
   std::shared_ptr<const Material> material{};
 };
 
 inline void collectDrawn(const Node& node, DrawnMesh above, std::vector<DrawnMesh>& drawn) {
   if (const auto* transform = dynamic_cast<const Transform*>(&node.core()))
-    above.toWorld *= glm::mat4(transform->matrix());
+    above.toWorld *= transform->matrix();
   if (const auto* group = dynamic_cast<const MaterialGroup*>(&node.core()))
     above.material = group->material();
   if (const auto* geometry = dynamic_cast<const Geometry*>(&node.core())) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <string_view>
 
 #include "TextFile.h"
@@ -13,6 +14,8 @@
 #include "weft/scenegraph/Node.h"
 
 namespace weft::test {
+
+constexpr float kPi = std::numbers::pi_v<float>;
 
 /// A square from -1 to 1 in the plane z = 0, facing +Z, with its texture upright.
 inline std::shared_ptr<Mesh> square() {

@@ -11,11 +11,10 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "Constants.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Direction.h"
 
@@ -23,8 +22,6 @@ namespace weft {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kPacket = 16;
 /// cos 85 degrees: lower directions would need a replicated margin of many periods.
 constexpr float kLowestZ = 0.0871f;

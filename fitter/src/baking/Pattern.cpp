@@ -8,16 +8,14 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <numbers>
 #include <string>
 
+#include "Constants.h"
 #include "weft/core/Contract.h"
 
 namespace weft {
 
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // --- Noise that repeats with the unit square ---
 

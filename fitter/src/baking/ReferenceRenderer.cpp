@@ -9,17 +9,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <numbers>
 #include <utility>
 
+#include "Constants.h"
 #include "weft/core/Contract.h"
 
 namespace weft {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Directions, orthonormal but left-handed where the image is mirrored or seen from behind: go into
 /// it by dot products only.

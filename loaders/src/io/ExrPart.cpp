@@ -12,19 +12,16 @@
 #include <array>
 #include <fstream>
 
+#include "ImageLimits.h"
 #include "weft/core/FileKind.h"
 #include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
 
-constexpr int kLargestSide = 16384;
 // Deflate packs at most 1032 to 1, and halfs become floats; files up to the free size may be better
 // packed by other methods.
 constexpr std::uint64_t kMostExpansion = 2 * 1032;
-constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
-// Pictures of one colour may well be packed by more, but few others.
-constexpr std::uint64_t kUsualExpansion = 64;
 
 // OpenEXR keeps an attribute, of 14 bytes at least, and a channel, of 18, in up to so many bytes in
 // its copies of the headers.

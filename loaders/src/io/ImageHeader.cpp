@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "ImageLimits.h"
+
 namespace weft {
 namespace {
 
-constexpr std::int64_t kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
 }  // namespace

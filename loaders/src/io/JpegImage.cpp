@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "ImageLimits.h"
 #include "weft/core/Contract.h"
 #include "weft/io/ImageFile.h"
 
@@ -24,9 +25,6 @@ using Bytes = std::span<const std::uint8_t>;
 // A progressive JPEG is decoded as a whole for each of its scans, of which a small file may claim
 // many.
 constexpr int kMostScans = 500;
-// Arithmetic coding has no least number of bits; larger pictures coded so are measured by
-// Huffman's.
-constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 
 /// What libjpeg has to say, and where it then goes on.
 struct Failure : jpeg_error_mgr {
@@ -138,6 +136,8 @@ bool fitsIntoFile(const jpeg_decompress_struct& jpeg, std::size_t fileBytes) {
     blocks += std::uint64_t{jpeg.comp_info[i].width_in_blocks} * jpeg.comp_info[i].height_in_blocks;
     samples += std::uint64_t{jpeg.image_width} * jpeg.image_height;
   }
+  // Arithmetic coding has no least number of bits; larger pictures coded so are measured by
+  // Huffman's.
   if (jpeg.arith_code && samples <= kFreeBytes) return true;
   return blocks * (jpeg.progressive_mode || jpeg.arith_code ? 1 : 2) <= std::uint64_t{fileBytes} * 8;
 }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <vector>
 
+#include "ImageLimits.h"
 #include "weft/core/Contract.h"
 #include "weft/io/ImageFile.h"
 
@@ -20,9 +21,6 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kSignatureBytes = 8;
 constexpr std::uint64_t kMostDeflated = 1032;  // to 1: 258 bytes by two codes of a bit each
-// Pictures that are larger, and packed by more, are unpacked once before memory is taken for them.
-constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
-constexpr std::uint64_t kUsualExpansion = 64;
 
 std::uint32_t bigEndian(Bytes bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -205,6 +203,7 @@ Result<ImageHeader> readPngHeader(Bytes bytes, const std::string& where) {
   const std::uint64_t values = static_cast<std::uint64_t>(header.width) *
                                static_cast<std::uint64_t>(header.height) *
                                static_cast<std::uint64_t>(header.channels);
+  // What is larger, and packed by more, is unpacked once before memory is taken for it.
   if (values > kFreeBytes + kUsualExpansion * bytes.size() && !hasAllRows(decoder, header))
     return decoder.failure(where);
   return header;

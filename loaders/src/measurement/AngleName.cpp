@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-bool isLetter(char c) {
+bool isLowerCaseLetter(char c) {
   return c >= 'a' && c <= 'z';
 }
 
@@ -29,7 +29,7 @@ std::optional<double> leadingNumber(std::string text) {
 std::optional<double> numberAfter(std::string_view tag, std::string_view text) {
   for (std::size_t at = text.rfind(tag); at != std::string_view::npos;
        at = at == 0 ? std::string_view::npos : text.rfind(tag, at - 1)) {
-    if (at > 0 && isLetter(text[at - 1])) continue;
+    if (at > 0 && isLowerCaseLetter(text[at - 1])) continue;
     if (const auto number = leadingNumber(std::string(text.substr(at + tag.size())))) return number;
   }
   return std::nullopt;

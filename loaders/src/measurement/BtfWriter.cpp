@@ -1,14 +1,13 @@
 #include "weft/measurement/BtfWriter.h"
 
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "Zip.h"
 #include "weft/core/AtomicFile.h"
 #include "weft/core/Contract.h"
 #include "weft/core/Direction.h"
@@ -19,11 +18,6 @@ namespace weft {
 namespace {
 
 constexpr int kJpegQuality = 95;
-
-struct DiscardZip {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-using Zip = std::unique_ptr<zip_t, DiscardZip>;
 
 // "030" for whole degrees, as UBO2003 writes them; decimals where a direction needs them.
 std::string angleText(double degrees) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <zip.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -8,15 +7,11 @@
 
 #include "FileCollection.h"
 #include "FilePath.h"
+#include "Zip.h"
 #include "weft/io/FileBytes.h"
 
 namespace weft {
 namespace {
-
-struct DiscardZip {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-using Zip = std::unique_ptr<zip_t, DiscardZip>;
 
 struct CloseEntry {
   void operator()(zip_file_t* entry) const { zip_fclose(entry); }

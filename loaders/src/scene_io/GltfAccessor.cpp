@@ -214,4 +214,11 @@ Result<std::vector<std::uint32_t>> readIndices(const GltfFile& file, int index) 
   return indices;
 }
 
+bool isFinite(const glm::mat4& matrix) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(matrix[column][row])) return false;
+  return true;
+}
+
 }  // namespace weft

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <glm/mat4x4.hpp>
 #include <optional>
 
 #include "GltfFile.h"
@@ -23,6 +24,9 @@ Result<std::size_t> componentsOf(const GltfFile& file, int accessor);
 
 /// How many elements an accessor has; fails where they are not there.
 Result<std::size_t> countOf(const GltfFile& file, int accessor);
+
+/// Whether all numbers of a matrix are finite as floats.
+bool isFinite(const glm::mat4& matrix);
 
 /// An accessor of vectors (or, with 16 components, of matrices).
 template <class Vector, std::size_t components = static_cast<std::size_t>(Vector::length())>

@@ -11,13 +11,6 @@
 namespace weft {
 namespace {
 
-bool isFinite(const glm::mat4& matrix) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      if (!std::isfinite(matrix[column][row])) return false;
-  return true;
-}
-
 /// One vector an instance; `otherwise` where the extension has no such attribute.
 template <class Vector>
 Result<std::vector<Vector>> attributeOf(const GltfFile& file, const tinygltf::Value& attributes,

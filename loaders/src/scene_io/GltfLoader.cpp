@@ -37,7 +37,7 @@ constexpr double kSmallestRadius = 1e-15;  // ... and not 0
 constexpr double kFarthest = 1e13;
 
 /// A node of the file that is still to be read.
-struct Visit {
+struct PendingNode {
   int index;
   std::shared_ptr<Node> parent;
   glm::dmat4 toWorld;
@@ -49,14 +49,6 @@ struct Placed {
   std::shared_ptr<Node> node;
   glm::dmat4 toWorld;
 };
-
-/// In floats.
-bool isFinite(const glm::mat4& matrix) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      if (!std::isfinite(matrix[column][row])) return false;
-  return true;
-}
 
 /// The inverse of a camera node's matrix without its scale, which glTF says to leave out.
 std::optional<glm::dmat4> viewOf(const glm::dmat4& toWorld) {
@@ -154,11 +146,11 @@ class SceneReader {
     const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
     if (scene >= model.scenes.size()) return file_.fail("the default scene does not exist");
     const std::vector<int>& roots = model.scenes[scene].nodes;
-    std::vector<Visit> visits;
+    std::vector<PendingNode> visits;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
       visits.push_back({*root, scene_.root, glm::dmat4(1.0), 0});
     while (!visits.empty()) {
-      const Visit visit = visits.back();
+      const PendingNode visit = visits.back();
       visits.pop_back();
       const std::string name = "node " + std::to_string(visit.index);
       if (visit.index < 0 || static_cast<std::size_t>(visit.index) >= model.nodes.size())

@@ -12,10 +12,6 @@ namespace {
 
 constexpr const char* kBtfExtension = "WEFT_materials_btf";
 
-std::string quoted(const tinygltf::Material& material) {
-  return "material \"" + material.name + "\"";
-}
-
 /// The set that the file's tangents belong to: the normal texture's.
 Result<int> tangentSetOf(const GltfFile& file, const tinygltf::Material& material) {
   WEFT_TRY(const TexturePlacement placement,

@@ -240,7 +240,7 @@ void place(Mesh& mesh, const TexturePlacement& placement) {
   }
 }
 
-bool isFinite(const std::vector<glm::vec3>& positions) {
+bool areFinite(const std::vector<glm::vec3>& positions) {
   return std::all_of(positions.begin(), positions.end(), [](glm::vec3 p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   });
@@ -330,7 +330,7 @@ Result<std::shared_ptr<const Mesh>> readMesh(const GltfFile& file, const tinyglt
     WEFT_TRY(const std::vector<glm::mat4> matrices, skinMatrices(file, attributes, pose.joints, vertices));
     skin(mesh, matrices);
   }
-  if (!isFinite(mesh.positions)) return file.fail("the pose of a mesh is not finite");
+  if (!areFinite(mesh.positions)) return file.fail("the pose of a mesh is not finite");
   if (!mesh.normals.empty()) normalize(mesh.normals);
   place(mesh, dress.placement);
   complete(mesh);

@@ -12,10 +12,6 @@ constexpr const char* kSpecular = "KHR_materials_specular";
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 constexpr float kInfiniteRefractiveIndex = 1e6f;  // mirrors everything
 
-std::string quoted(const tinygltf::Material& material) {
-  return "material \"" + material.name + "\"";
-}
-
 float unit(double factor) {
   return static_cast<float>(std::clamp(factor, 0.0, 1.0));
 }
@@ -25,6 +21,10 @@ glm::vec3 unitColor(const std::vector<double>& numbers) {
 }
 
 }  // namespace
+
+std::string quoted(const tinygltf::Material& material) {
+  return "material \"" + material.name + "\"";
+}
 
 Result<PBROptions> GltfPbr::read(const tinygltf::Material& material) {
   PBROptions options;

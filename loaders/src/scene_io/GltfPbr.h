@@ -6,6 +6,9 @@
 
 namespace weft {
 
+/// A material's name, for people.
+std::string quoted(const tinygltf::Material& material);
+
 /// Reads what a material says in glTF's own terms and those of Khronos' extensions.
 class GltfPbr {
  public:

@@ -73,13 +73,6 @@ glm::dquat interpolateRotation(const Keys& keys, double time) {
   return glm::slerp(keyAt(at.first), keyAt(at.second), at.share);
 }
 
-bool isFinite(const glm::mat4& matrix) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      if (!std::isfinite(matrix[column][row])) return false;
-  return true;
-}
-
 Result<std::vector<float>> keyTimes(const GltfFile& file, const tinygltf::AnimationSampler& sampler) {
   WEFT_TRY(std::vector<float> times, readFloats(file, sampler.input, 1));
   if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())

@@ -11,7 +11,6 @@
 namespace weft {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kSmoothest = 0.045f;  // as pbr.frag
 
 float share(int i, int count) {
@@ -42,7 +41,7 @@ glm::vec2 reflected(float nv, float roughness) {
     const float up = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
     const float across = std::sqrt(1.0f - up * up);
     for (int j = 0; j < kSteps; ++j) {
-      const float phi = kPi * (static_cast<float>(j) + 0.5f) / kSteps;
+      const float phi = std::numbers::pi_v<float> * (static_cast<float>(j) + 0.5f) / kSteps;
       const glm::vec3 h(across * std::cos(phi), across * std::sin(phi), up);
       const float vh = glm::dot(v, h);
       const float nl = 2.0f * vh * up - nv;

@@ -13,7 +13,6 @@
 namespace weft {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Enough for (t.l)^256: the harmonics of that degree are 4e-5 of the first.
 constexpr int kDegree = 72;
 /// Below this layer, mirrors too smooth for the harmonics are sampled.
@@ -44,7 +43,8 @@ class Pyramid {
 
   /// The radiance around a direction, over about so many steradians.
   glm::vec3 around(glm::vec3 direction, double solidAngle) const {
-    const double texel = 4.0 * kPi / (static_cast<double>(levels_[0].width()) * levels_[0].height());
+    const double texel =
+        4.0 * std::numbers::pi / (static_cast<double>(levels_[0].width()) * levels_[0].height());
     const auto level = static_cast<float>(std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0,
                                                      static_cast<double>(levels_.size() - 1)));
     const auto low = std::min(static_cast<std::size_t>(level), levels_.size() - 1);
@@ -62,7 +62,8 @@ class Pyramid {
 /// as the samples are apart.
 glm::vec3 sampledGlossy(const Pyramid& pyramid, glm::vec3 direction, double roughness) {
   if (roughness == 0.0)
-    return pyramid.around(direction, 4.0 * kPi / std::pow(PrefilteredEnvironment::kGlossyMap.size, 2));
+    return pyramid.around(direction,
+                          4.0 * std::numbers::pi / std::pow(PrefilteredEnvironment::kGlossyMap.size, 2));
   constexpr int kSamples = 64;
   const double squared = std::pow(roughness, 4.0);
   const glm::vec3 other = std::abs(direction.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
@@ -81,7 +82,8 @@ glm::vec3 sampledGlossy(const Pyramid& pyramid, glm::vec3 direction, double roug
                         static_cast<float>(sine * std::cos(phi)) * across +
                         static_cast<float>(sine * std::sin(phi)) * along;
     const double width = facing * (squared - 1.0) + 1.0;
-    const double density = squared / (kPi * width * width) / 4.0;  // per steradian of l
+    // Per steradian of l.
+    const double density = squared / (std::numbers::pi * width * width) / 4.0;
     sum += static_cast<float>(cosine) * pyramid.around(l, 1.0 / (kSamples * density));
     weights += static_cast<float>(cosine);
   }

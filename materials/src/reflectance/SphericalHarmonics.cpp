@@ -11,7 +11,6 @@
 namespace weft {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kBlock = 64;  // texels whose harmonics fit into a processor's cache
 
 constexpr unsigned kOddX = 1, kOddY = 2, kOddZ = 4;
@@ -46,7 +45,7 @@ SphericalHarmonics::SphericalHarmonics(int degree) : degree_(degree) {
 void SphericalHarmonics::legendre(double cosine, std::vector<double>& values) const {
   values.resize(triangle(degree_ + 1, 0));
   const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
-  double diagonal = std::sqrt(0.25 / kPi);
+  double diagonal = std::sqrt(0.25 / std::numbers::pi);
   for (int m = 0; m <= degree_; ++m) {
     if (m > 0) diagonal *= sine * std::sqrt((2.0 * m + 1.0) / (2.0 * m));
     double before = 0.0, latest = diagonal;
@@ -131,9 +130,10 @@ std::vector<double> SphericalHarmonics::zonal(const std::function<double(double)
   constexpr int kSteps = 4096;
   std::vector<double> factors(static_cast<std::size_t>(degree_) + 1, 0.0);
   for (int i = 0; i < kSteps; ++i) {
-    const double angle = kPi * (i + 0.5) / kSteps;
+    const double angle = std::numbers::pi * (i + 0.5) / kSteps;
     const double cosine = std::cos(angle);
-    const double weight = 2.0 * kPi * kPi / kSteps * std::sin(angle) * kernel(cosine);
+    const double weight =
+        2.0 * std::numbers::pi * std::numbers::pi / kSteps * std::sin(angle) * kernel(cosine);
     if (weight == 0.0) continue;
     double before = 0.0, latest = 1.0;  // Legendre's polynomials
     for (int l = 0; l <= degree_; ++l) {

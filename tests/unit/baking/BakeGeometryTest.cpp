@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "BakedSource.h"
 #include "TestSupport.h"
 #include "weft/baking/BtfBaker.h"
 #include "weft/core/Direction.h"
@@ -39,14 +40,6 @@ BakeOptions directOptions(std::vector<glm::vec3> views, std::vector<glm::vec3> l
   options.views = std::move(views);
   options.lights = std::move(lights);
   return options;
-}
-
-std::vector<float> bakeView(const BtfBaker& baker, int view) {
-  const BakeOptions& options = baker.options();
-  std::vector<float> out(options.lights.size() * static_cast<std::size_t>(options.width * options.height) *
-                         3);
-  baker.bakeView(view, out);
-  return out;
 }
 
 /// The red value of a texel under a light.
@@ -101,7 +94,7 @@ TEST(BakeGeometry, ARidgeLitFromTheTopOfTheImageShadowsTheRowsBelow) {
   const float level = std::sqrt(0.5f);
   const auto baker = test::valueOf(BtfBaker::create(
       field, directOptions({{0, 0, 1}}, {directionFromDegrees(45, 90), directionFromDegrees(45, 270)})));
-  const std::vector<float> view = bakeView(baker, 0);
+  const std::vector<float> view = test::bakedView(baker, 0);
   for (int row = 16; row < 20; ++row) EXPECT_EQ(red(view, 0, 7, row), 0.0f) << row;
   EXPECT_NEAR(red(view, 0, 7, 20), 0.5f * level, 0.1f);
   for (int row : {21, 31, 0, 12}) EXPECT_NEAR(red(view, 0, 7, row), level, 1e-5f) << row;
@@ -116,7 +109,7 @@ TEST(BakeGeometry, APlateauCastsTheShadowOfABoxUnderEveryLight) {
   const Box box{10.0f, 18.0f, -22.0f, -18.0f};
   const float half = 0.5f * kSpacing;  // the walls slope over one sample
   const auto baker = test::valueOf(BtfBaker::create(field, directOptions({{0, 0, 1}}, ubo2003Directions())));
-  const std::vector<float> view = bakeView(baker, 0);
+  const std::vector<float> view = test::bakedView(baker, 0);
   int dark = 0;
   for (std::size_t light = 0; light < baker.options().lights.size(); ++light) {
     const glm::vec3 l = baker.options().lights[light];
@@ -150,7 +143,7 @@ TEST(BakeGeometry, APlateauAppearsDisplacedAgainstTheView) {
   const auto baker = test::valueOf(BtfBaker::create(field, directOptions(ubo2003Directions(), {{0, 0, 1}})));
   for (int view = 0; view < 81; ++view) {
     const glm::vec3 v = baker.options().views[static_cast<std::size_t>(view)];
-    const std::vector<float> picture = bakeView(baker, view);
+    const std::vector<float> picture = test::bakedView(baker, view);
     const auto inside = [&](float by) {
       return [&, by](float x, float y) {
         const auto seenX =
@@ -184,7 +177,7 @@ TEST(BakeGeometry, WhatLiesInTheReferencePlaneStaysInItsTexelInEveryView) {
           glm::vec3(static_cast<float>(column) / kTexels, static_cast<float>(row) / kTexels, 0);
   const auto baker = test::valueOf(BtfBaker::create(field, directOptions(ubo2003Directions(), {{0, 0, 1}})));
   for (int view : {0, 3, 40, 60, 80}) {
-    const std::vector<float> picture = bakeView(baker, view);
+    const std::vector<float> picture = test::bakedView(baker, view);
     for (int row = 0; row < kTexels; ++row)
       for (int column = 0; column < kTexels; ++column)
         ASSERT_NEAR(red(picture, 0, column, row), static_cast<float>(column) / kTexels, 0.3f / kTexels);
@@ -223,8 +216,8 @@ TEST(BakeGeometry, TwoByTwoPeriodsAreTheSameSurface) {
   const auto small = test::valueOf(BtfBaker::create(one, options));
   const auto large = test::valueOf(BtfBaker::create(four, twice));
   for (int view = 0; view < 3; ++view) {
-    const std::vector<float> a = bakeView(small, view);
-    const std::vector<float> b = bakeView(large, view);
+    const std::vector<float> a = test::bakedView(small, view);
+    const std::vector<float> b = test::bakedView(large, view);
     double sum = 0.0;
     double difference = 0.0;
     for (std::size_t light = 0; light < 81; ++light)
@@ -256,8 +249,8 @@ TEST(BakeGeometry, AShiftedSurfaceGivesAShiftedBtf) {
   options.bounces = 0;
   options.views = {directionFromDegrees(75, 45)};
   options.lights = {directionFromDegrees(75, 170), directionFromDegrees(60, 300)};
-  const std::vector<float> a = bakeView(test::valueOf(BtfBaker::create(field, options)), 0);
-  const std::vector<float> b = bakeView(test::valueOf(BtfBaker::create(shifted, options)), 0);
+  const std::vector<float> a = test::bakedView(test::valueOf(BtfBaker::create(field, options)), 0);
+  const std::vector<float> b = test::bakedView(test::valueOf(BtfBaker::create(shifted, options)), 0);
   double difference = 0.0;
   double unshifted = 0.0;
   for (int light = 0; light < 2; ++light)

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "BakedSource.h"
 #include "TestSupport.h"
 #include "weft/baking/BtfBaker.h"
 #include "weft/baking/Pattern.h"
@@ -16,14 +17,6 @@
 
 namespace weft {
 namespace {
-
-std::vector<float> bakeView(const BtfBaker& baker, int view) {
-  const BakeOptions& options = baker.options();
-  std::vector<float> out(options.lights.size() * static_cast<std::size_t>(options.width * options.height) *
-                         3);
-  baker.bakeView(view, out);
-  return out;
-}
 
 /// GGX in double precision, written with slopes (tangents) and Smith's Lambda instead of the
 /// baker's form.
@@ -48,7 +41,7 @@ TEST(BakeLight, AFlatPatchGivesItsOwnReflectanceForEveryPair) {
   options.height = 3;
   const auto baker = test::valueOf(BtfBaker::create(field, options));
   for (int view = 0; view < 81; ++view) {
-    const std::vector<float> values = bakeView(baker, view);
+    const std::vector<float> values = test::bakedView(baker, view);
     const glm::dvec3 v(options.views[static_cast<std::size_t>(view)]);
     for (std::size_t light = 0; light < 81; ++light) {
       const glm::dvec3 l(options.lights[light]);
@@ -82,7 +75,7 @@ TEST(BakeLight, OneBounceInAGrooveIsTheFormFactorOfTheOtherFace) {
   options.samples = 1024;
   options.views = options.lights = {{0, 0, 1}};
   const HeightField field = groove(kAlbedo);
-  const std::vector<float> values = bakeView(test::valueOf(BtfBaker::create(field, options)), 0);
+  const std::vector<float> values = test::bakedView(test::valueOf(BtfBaker::create(field, options)), 0);
   const double direct = static_cast<double>(kAlbedo) * std::sqrt(0.5);
   for (int column = 0; column < options.width; ++column) {
     // At the distance s from the bottom, along a face of length sqrt 2, the other face fills (1 - s
@@ -118,7 +111,7 @@ double underWhiteSky(const HeightField& field, glm::vec3 view, int bounces) {
       options.lights.push_back(
           directionFromDegrees(std::asin(sine) * 180.0 / std::numbers::pi, 15.0 * i + 5.0 * ring));
     }
-  const std::vector<float> values = bakeView(test::valueOf(BtfBaker::create(field, options)), 0);
+  const std::vector<float> values = test::bakedView(test::valueOf(BtfBaker::create(field, options)), 0);
   const std::size_t perLight = values.size() / options.lights.size();
   double sum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -161,7 +154,7 @@ TEST(BakeLight, EqualOnAnyNumberOfThreads) {
   options.bounces = 2;
   const auto bake = [&] {
     const auto baker = test::valueOf(BtfBaker::create(test::valueOf(makePattern("tiles", 64)), options));
-    return bakeView(baker, 70);
+    return test::bakedView(baker, 70);
   };
   const std::vector<float> many = bake();
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);

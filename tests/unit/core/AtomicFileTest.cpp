@@ -10,28 +10,23 @@
 
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "LockedTemporary.h"
 #include "TestSupport.h"
+#include "TextFile.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using test::requireDone;
 using test::valueOf;
 using testing::HasSubstr;
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
-}
-
-std::string textOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 std::size_t filesIn(const fs::path& folder) {
@@ -46,11 +41,11 @@ TEST(AtomicFile, AppearsOnCommitAndReplacesWhatWasThere) {
     AtomicFile file = valueOf(AtomicFile::create(target));
     EXPECT_EQ(file.temporary().parent_path(), folder);
     write(file.temporary(), "new");
-    EXPECT_EQ(textOf(target), "old");
+    EXPECT_EQ(readText(target), "old");
     requireDone(file.commit());
-    EXPECT_EQ(textOf(target), "new");
+    EXPECT_EQ(readText(target), "new");
   }
-  EXPECT_EQ(textOf(target), "new");
+  EXPECT_EQ(readText(target), "new");
   EXPECT_EQ(filesIn(folder), 1u);
 }
 
@@ -62,7 +57,7 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
     write(file.temporary(), "new");
     write(file.temporary().string() + ".XyZ", "a library's own temporary");
   }
-  EXPECT_EQ(textOf(folder / "out.txt"), "old");
+  EXPECT_EQ(readText(folder / "out.txt"), "old");
   EXPECT_EQ(filesIn(folder), 1u);
 }
 
@@ -75,7 +70,7 @@ TEST(AtomicFile, TwoMayWriteToOneTarget) {
   write(second.temporary(), "second");
   requireDone(second.commit());
   requireDone(first.commit());
-  EXPECT_EQ(textOf(folder / "out.txt"), "first");
+  EXPECT_EQ(readText(folder / "out.txt"), "first");
 }
 
 TEST(AtomicFile, RefusesFoldersAndMissingFolders) {
@@ -104,7 +99,7 @@ TEST(AtomicFile, WholeFilesReplaceWhatWasThere) {
   const fs::path target = test::testFolder() / "out.txt";
   write(target, "something longer");
   requireDone(writeWholeFile(target, std::string_view("a\0b", 3)));
-  EXPECT_EQ(textOf(target), std::string("a\0b", 3));
+  EXPECT_EQ(readText(target), std::string("a\0b", 3));
   EXPECT_FALSE(writeWholeFile(target / "below", "text"));
 }
 
@@ -127,7 +122,7 @@ TEST(AtomicFile, RefusesWhatCannotBeAFile) {
 TEST(AtomicFile, TakesTheLongestNames) {
   const fs::path target = test::testFolder() / std::string(255, 'a');
   requireDone(writeWholeFile(target, "text"));
-  EXPECT_EQ(textOf(target), "text");
+  EXPECT_EQ(readText(target), "text");
 }
 
 TEST(AtomicFile, RefusesSockets) {
@@ -168,7 +163,7 @@ TEST(AtomicFile, FollowsSymbolicLinks) {
   fs::create_symlink(folder / "relative", folder / "absolute");
   for (const char* text : {"first", "second"}) {  // what the links name is not there at first
     requireDone(writeWholeFile(folder / "absolute", text));
-    EXPECT_EQ(textOf(folder / "far" / "out.txt"), text);
+    EXPECT_EQ(readText(folder / "far" / "out.txt"), text);
   }
   EXPECT_TRUE(fs::is_symlink(folder / "absolute") && fs::is_symlink(folder / "relative"));
   EXPECT_EQ(filesIn(folder / "far"), 1u);
@@ -205,7 +200,7 @@ TEST(AtomicFile, WritesThroughPipes) {
   const fs::path pipe = test::testFolder() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::string read;
-  std::thread reader([&] { read = textOf(pipe); });
+  std::thread reader([&] { read = readText(pipe); });
   const std::string text(300000, 'x');  // more than a pipe holds
   const Result<void> written = writeWholeFile(pipe, text);
   reader.join();
@@ -231,7 +226,7 @@ TEST(AtomicFile, WritesIntoOpenDescriptors) {
   const Result<void> written = writeWholeFile("/dev/fd/" + std::to_string(descriptor), "after");
   close(descriptor);
   requireDone(written);
-  EXPECT_EQ(textOf(log), "before after");
+  EXPECT_EQ(readText(log), "before after");
   EXPECT_THAT(refusal("/dev/fd/" + std::to_string(descriptor)), HasSubstr("not open for writing"));
 }
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "TestSupport.h"
+#include "TextFile.h"
 
 // Every file, heading and program that a page or a comment names exists.
 
@@ -17,18 +16,13 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using testing::IsEmpty;
 
 const std::set<std::string> kSources{".h", ".cpp", ".glsl", ".frag", ".vert", ".md", ".sh", ".cmake", ".txt"};
 const std::vector<std::string> kFolders{"core",    "shaders", "chunks",   "scenegraph", "materials",
                                         "loaders", "fitter",  "programs", "samples",    "tests",
                                         "scripts", "cmake",   "docs"};
-
-std::string textOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 std::vector<fs::path> filesOf(const fs::path& root) {
   std::vector<fs::path> files;
@@ -59,7 +53,7 @@ std::string anchorOf(const std::string& heading) {
 std::set<std::string> headingsOf(const fs::path& page) {
   static const std::regex pattern("(?:^|\\n)#+ ([^\\n]+)");
   std::set<std::string> headings;
-  const std::string text = textOf(page);
+  const std::string text = readText(page);
   for (const std::smatch& match : matchesOf(text, pattern)) {
     headings.insert(match[1]);
     headings.insert("#" + anchorOf(match[1]));
@@ -82,7 +76,7 @@ TEST_F(Documentation, LinksLeadSomewhere) {
   static const std::regex link("\\]\\(([^)#:]*)(#[^)]*)?\\)");
   for (const fs::path& file : files_) {
     if (file.extension() != ".md") continue;
-    const std::string text = textOf(file);
+    const std::string text = readText(file);
     for (const std::smatch& match : matchesOf(text, link)) {
       const fs::path target = match[1].length() == 0 ? file : file.parent_path() / match[1].str();
       if (!fs::exists(target) || (match[2].matched && !headingsOf(target).contains(match[2])))
@@ -98,7 +92,7 @@ TEST_F(Documentation, PathsExist) {
       "scripts|cmake|docs)/[\\w./-]*\\w)");
   for (const fs::path& file : files_) {
     if (file.extension() != ".md") continue;
-    const std::string text = textOf(file);
+    const std::string text = readText(file);
     for (const std::smatch& match : matchesOf(text, path))
       if (!fs::exists(root_ / match[2].str())) wrong(file, match[2]);
   }
@@ -113,7 +107,7 @@ TEST_F(Documentation, FilesAndHeadingsThatCommentsNameExist) {
   for (const fs::path& file : files_) names.insert(file.filename().string());
   for (const fs::path& file : files_) {
     if (file.extension() == ".md" || file.filename() == "DocumentationTest.cpp") continue;
-    const std::string text = textOf(file);
+    const std::string text = readText(file);
     for (const std::smatch& line : matchesOf(text, comment)) {
       const std::string words = line.str();
       for (const std::smatch& match : matchesOf(words, named))
@@ -131,7 +125,7 @@ TEST_F(Documentation, ProgramsExist) {
   for (const fs::path& file : files_) names.insert(file.stem().string());
   for (const fs::path& file : files_) {
     if (file.extension() != ".md") continue;
-    const std::string text = textOf(file);
+    const std::string text = readText(file);
     for (const std::smatch& match : matchesOf(text, program))
       if (!names.contains(match[1])) wrong(file, match[1]);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "TestSupport.h"
+#include "TextFile.h"
 
 // Who may include whom is the table in docs/architecture.md; this test keeps the sources to it.
 
@@ -18,6 +19,7 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -29,12 +31,6 @@ struct Library {
 using Libraries = std::map<std::string, Library>;
 
 const std::set<std::string> kLibrariesWithGl{"chunks", "scenegraph", "materials", "scene_io"};
-
-std::string textOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> split(const std::string& text, const std::string& separator) {
   std::vector<std::string> parts;
@@ -78,7 +74,7 @@ std::vector<fs::path> sourcesOf(const fs::path& root, const std::string& name, c
 
 std::vector<std::string> includesOf(const fs::path& file) {
   static const std::regex pattern(R"(#\s*include\s*[<"]([^>"]+)[>"])");
-  const std::string text = textOf(file);
+  const std::string text = readText(file);
   std::vector<std::string> includes;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
     includes.push_back((*match)[1]);
@@ -113,7 +109,7 @@ std::vector<std::string> wrongHeaderNames(const fs::path& root, const Libraries&
   std::vector<std::string> wrong;
   for (const auto& [name, library] : libraries)
     for (const fs::path& file : sourcesBelow(root / library.folder / "include" / "weft" / name)) {
-      const std::string text = textOf(file);
+      const std::string text = readText(file);
       std::set<std::string> classes;
       for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match)
         classes.insert((*match)[1]);
@@ -125,7 +121,7 @@ std::vector<std::string> wrongHeaderNames(const fs::path& root, const Libraries&
 }
 
 Libraries weftLibraries() {
-  return librariesOf(textOf(test::sourceFolder() / "docs" / "architecture.md"));
+  return librariesOf(readText(test::sourceFolder() / "docs" / "architecture.md"));
 }
 
 TEST(IncludeDirection, FollowsTheTable) {

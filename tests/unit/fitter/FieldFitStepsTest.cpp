@@ -21,10 +21,10 @@ using test::MemoryBtf;
 using test::valueOf;
 using testing::HasSubstr;
 
-constexpr int kHeight = 40;  // two rows a part
+constexpr int kRows = 40;  // two rows a part
 
 MemoryBtf unevenBtf() {
-  return MemoryBtf(3, kHeight, [](int x, int y, glm::vec3 v, glm::vec3 l) {
+  return MemoryBtf(3, kRows, [](int x, int y, glm::vec3 v, glm::vec3 l) {
     return glm::vec3(0.9f, 0.6f, 0.3f) * l.z *
            (0.5f + 0.3f * std::sin(static_cast<float>(x + 3 * y)) * l.x * v.y);
   });
@@ -59,7 +59,7 @@ TEST(FieldFitSteps, AStoppedFitGoesOnToTheSameResult) {
   FieldFit resumed = valueOf(FieldFit::create(source, optionsWith(parts)));
   ASSERT_TRUE(resumed.resume());
   double progress = 0.0;
-  ASSERT_TRUE(resumed.fitRows(0, kHeight, [&](double fraction) { progress = fraction; }));
+  ASSERT_TRUE(resumed.fitRows(0, kRows, [&](double fraction) { progress = fraction; }));
   EXPECT_DOUBLE_EQ(progress, 1.0);
   expectSameFields(valueOf(resumed.finish()), uninterrupted);
   resumed.removeParts();
@@ -72,8 +72,8 @@ TEST(FieldFitSteps, ProcessesShareAFitByItsFolder) {
   std::vector<FieldFit> processes;
   for (int rank = 0; rank < 3; ++rank) {
     processes.push_back(valueOf(FieldFit::create(source, optionsWith(parts))));
-    const int first = kHeight * rank / 3;
-    EXPECT_TRUE(processes.back().fitRows(first, kHeight * (rank + 1) / 3 - first, {}));
+    const int first = kRows * rank / 3;
+    EXPECT_TRUE(processes.back().fitRows(first, kRows * (rank + 1) / 3 - first, {}));
   }
   ASSERT_TRUE(processes[0].resume());
   expectSameFields(valueOf(processes[0].finish()), valueOf(fitReflectanceField(source, optionsWith({}))));
@@ -101,8 +101,8 @@ TEST(FieldFitSteps, MeasurementsAreToldApartByWhatWasMeasured) {
   EXPECT_TRUE(valueOf(FieldFit::create(source, options)).resume());
   source.description().views[7] = directionFromDegrees(31, 0.01);
   EXPECT_THAT(failureText(valueOf(FieldFit::create(source, options)).resume()), HasSubstr("another fit"));
-  const MemoryBtf other(3, kHeight, [](int x, int y, glm::vec3, glm::vec3 l) {
-    return glm::vec3(x == 2 && y == kHeight - 1 ? 0.5f : 0.4f) * l.z;
+  const MemoryBtf other(3, kRows, [](int x, int y, glm::vec3, glm::vec3 l) {
+    return glm::vec3(x == 2 && y == kRows - 1 ? 0.5f : 0.4f) * l.z;
   });
   EXPECT_THAT(failureText(valueOf(FieldFit::create(other, options)).resume()), HasSubstr("another fit"));
 }
@@ -122,7 +122,7 @@ TEST(FieldFitSteps, OneThreadKeepsItsRowsToo) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   FieldFit fit = valueOf(FieldFit::create(source, options));
   bool kept = false;
-  ASSERT_TRUE(fit.fitRows(0, kHeight, [&](double fraction) {
+  ASSERT_TRUE(fit.fitRows(0, kRows, [&](double fraction) {
     if (fraction < 0.5 || fraction == 1.0 || kept) return;
     for (int i = 0; i < 1000 && rowFilesIn(options.partsFolder) == 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -140,7 +140,7 @@ TEST(FieldFitSteps, RowsThatCannotBeKeptAreAWarningAndAreTriedAgain) {
   std::vector<std::string> warnings;
   options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
   FieldFit fit = valueOf(FieldFit::create(source, options));
-  ASSERT_TRUE(fit.fitRows(0, kHeight, [&](double fraction) {
+  ASSERT_TRUE(fit.fitRows(0, kRows, [&](double fraction) {
     if (fraction <= 0.5)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));  // several saves
     else if (fs::is_regular_file(options.partsFolder))

@@ -7,12 +7,14 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "Epsilon.h"
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 
 namespace weft {
 namespace {
 
+using test::epsilon;
 using test::MemoryBtf;
 using test::valueOf;
 
@@ -21,10 +23,6 @@ FitOptions optionsFor(const std::string& model) {
   options.model.name = model;
   options.precision = Precision::Float;
   return options;
-}
-
-double epsilon(const FitResult& result, ErrorSpace space = ErrorSpace::Linear) {
-  return result.errors.of(space, ErrorMeasure::Luminance).average;
 }
 
 bool sameNumbers(const FloatImage& a, const FloatImage& b) {

@@ -23,7 +23,7 @@ constexpr int kWidth = 20;
 constexpr int kHeight = 24;
 
 // Uneven, so that sums of floats depend on their order.
-MemoryBtf unevenBtf(int width = kWidth) {
+MemoryBtf unevenBtfOfSevenViews(int width = kWidth) {
   MemoryBtf btf(width, kHeight, [](int x, int y, glm::vec3 v, glm::vec3 l) {
     const float value = (0.1f * static_cast<float>((13 * x + 7 * y) % 17) + 0.3f * v.x) * l.z;
     return glm::vec3(0.5f + 0.4f * value, 1e-3f + value * value, 0.3f);
@@ -132,7 +132,7 @@ void fitAllRows(FieldFit& fit) {
 }
 
 TEST(FieldFitter, GathersOverAllTexels) {
-  const MemoryBtf source = unevenBtf();
+  const MemoryBtf source = unevenBtfOfSevenViews();
   double sum = 0.0;
   for (int y = 0; y < kHeight; ++y) {
     SampleRows rows;
@@ -147,7 +147,7 @@ TEST(FieldFitter, GathersOverAllTexels) {
 }
 
 TEST(FieldFitter, NeitherThreadsNorBlocksChangeTheResult) {
-  const MemoryBtf source = unevenBtf(450);  // 3.1 MB a row
+  const MemoryBtf source = unevenBtfOfSevenViews(450);  // 3.1 MB a row
   const FitResult expected = valueOf(fitReflectanceField(source, meanOptions()));
   for (const int threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -160,7 +160,7 @@ TEST(FieldFitter, NeitherThreadsNorBlocksChangeTheResult) {
 }
 
 TEST(FieldFitter, ProcessesShareThePasses) {
-  const MemoryBtf source = unevenBtf();
+  const MemoryBtf source = unevenBtfOfSevenViews();
   const fs::path parts = test::testFolder() / "parts";
   FieldFit first = valueOf(FieldFit::create(source, meanOptions(parts)));
   FieldFit second = valueOf(FieldFit::create(source, meanOptions(parts)));
@@ -181,7 +181,7 @@ TEST(FieldFitter, ProcessesShareThePasses) {
 }
 
 TEST(FieldFitter, AStopInAnyPassLosesNothing) {
-  const MemoryBtf source = unevenBtf();
+  const MemoryBtf source = unevenBtfOfSevenViews();
   const FitResult expected = valueOf(fitReflectanceField(source, meanOptions()));
   for (int stopped = 0; stopped < 3; ++stopped) {
     const fs::path parts = test::testFolder() / ("parts" + std::to_string(stopped));
@@ -204,7 +204,7 @@ TEST(FieldFitter, AStopInAnyPassLosesNothing) {
 
 TEST(FieldFitter, ProgressIsThatOfAllPasses) {
   double last = 0.0;
-  valueOf(fitReflectanceField(unevenBtf(), meanOptions(), [&](double fraction) {
+  valueOf(fitReflectanceField(unevenBtfOfSevenViews(), meanOptions(), [&](double fraction) {
     EXPECT_GT(fraction, last);
     last = fraction;
   }));

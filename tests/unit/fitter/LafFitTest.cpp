@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "Epsilon.h"
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/fitter/FieldFit.h"
@@ -13,22 +14,19 @@
 namespace weft {
 namespace {
 
+using test::epsilon;
 using test::MemoryBtf;
 using test::valueOf;
 
-FitOptions optionsFor(const std::string& model, int lobes) {
+FitOptions lafOptions(const std::string& model, int lobes) {
   FitOptions options;
   options.model.name = model;
   options.model.options["lobes"] = lobes;
   return options;
 }
 
-double epsilon(const FitResult& result, ErrorSpace space = ErrorSpace::Linear) {
-  return result.errors.of(space, ErrorMeasure::Luminance).average;
-}
-
 // A broad retro-reflecting and a glossy lobe over a diffuse albedo of 0.1.
-float twoLobes(glm::vec3 v, glm::vec3 l) {
+float twoLafLobes(glm::vec3 v, glm::vec3 l) {
   const glm::vec3 p = l * v;
   return 0.1f + 0.3f * std::pow(std::max(glm::dot(p, glm::vec3(0.6f, 0.5f, 1.0f)), 0.0f), 3.0f) +
          0.6f * std::pow(std::max(glm::dot(p, glm::vec3(-1.0f, -0.9f, 0.95f)), 0.0f), 14.0f);
@@ -42,8 +40,8 @@ float viewFactor(glm::vec3 v) {
 TEST(LafFit, RecoversItsLobes) {
   const glm::vec3 color(0.5f, 0.9f, 0.2f);
   const MemoryBtf source(1, 1,
-                         [&](int, int, glm::vec3 v, glm::vec3 l) { return color * l.z * twoLobes(v, l); });
-  const FitResult fit = valueOf(fitReflectanceField(source, optionsFor("laf", 2)));
+                         [&](int, int, glm::vec3 v, glm::vec3 l) { return color * l.z * twoLafLobes(v, l); });
+  const FitResult fit = valueOf(fitReflectanceField(source, lafOptions("laf", 2)));
   EXPECT_NEAR(fit.field.shared().at(0, 0, 3), 0.1f * luminance(color), 0.003f);
   EXPECT_LT(epsilon(fit), 1e-3);
   EXPECT_LT(fit.errors.of(ErrorSpace::Linear, ErrorMeasure::Rgb).average, 1e-3);
@@ -51,9 +49,9 @@ TEST(LafFit, RecoversItsLobes) {
 
 TEST(LafFit, SlafRecoversTheViewFactors) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) {
-    return glm::vec3(l.z * viewFactor(v) * twoLobes(v, l));
+    return glm::vec3(l.z * viewFactor(v) * twoLafLobes(v, l));
   });
-  const FitResult fit = valueOf(fitReflectanceField(source, optionsFor("slaf", 2)));
+  const FitResult fit = valueOf(fitReflectanceField(source, lafOptions("slaf", 2)));
   EXPECT_LT(epsilon(fit), 1e-3);
   double mean = 0.0;
   for (const glm::vec3 view : source.description().views) mean += viewFactor(view) / 81.0;
@@ -65,15 +63,15 @@ TEST(LafFit, SlafRecoversTheViewFactors) {
         << view;
   }
   EXPECT_NEAR(meanFactor, 1.0, 1e-3);
-  EXPECT_GT(epsilon(valueOf(fitReflectanceField(source, optionsFor("laf", 2)))), 10.0 * epsilon(fit));
+  EXPECT_GT(epsilon(valueOf(fitReflectanceField(source, lafOptions("laf", 2)))), 10.0 * epsilon(fit));
 }
 
 TEST(LafFit, EachColorChannelMayHaveLobesOfItsOwn) {
   const MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) {
-    return l.z * glm::vec3(twoLobes(v, l), 0.2f, 0.1f + 0.2f * l.z * v.z);
+    return l.z * glm::vec3(twoLafLobes(v, l), 0.2f, 0.1f + 0.2f * l.z * v.z);
   });
   for (const char* model : {"laf", "slaf"}) {
-    FitOptions options = optionsFor(model, 2);
+    FitOptions options = lafOptions(model, 2);
     options.model.options["color"] = "rgb";
     EXPECT_LT(valueOf(fitReflectanceField(source, options))
                   .errors.of(ErrorSpace::Linear, ErrorMeasure::Rgb)
@@ -90,7 +88,7 @@ TEST(LafFit, WhiteLambertianIsTheCosine) {
       const MemoryBtf source(
           1, 1, [&](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(cosineInData ? l.z : 1.0f); },
           cosineInData);
-      const FitResult fit = valueOf(fitReflectanceField(source, optionsFor(model, 4)));
+      const FitResult fit = valueOf(fitReflectanceField(source, lafOptions(model, 4)));
       for (int theta = 0; theta <= 90; theta += 3)
         for (int phi = 0; phi < 360; phi += 45) {
           const glm::vec3 light = directionFromDegrees(theta, phi);
@@ -103,10 +101,10 @@ TEST(LafFit, WhiteLambertianIsTheCosine) {
 }
 
 TEST(LafFit, TheCosineMayStayInTheModel) {
-  const MemoryBtf source(1, 1,
-                         [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });
+  const MemoryBtf source(
+      1, 1, [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLafLobes(v, l)); });
   for (const char* model : {"laf", "slaf"}) {
-    FitOptions options = optionsFor(model, 4);
+    FitOptions options = lafOptions(model, 4);
     options.cosineInModel = true;
     const FitResult fit = valueOf(fitReflectanceField(source, options));
     EXPECT_LT(epsilon(fit), 0.02);
@@ -125,7 +123,7 @@ TEST(LafFit, BlackAndBrokenTexelsGiveFiniteNumbers) {
   });
   for (const char* model : {"laf", "slaf"}) {
     const FitResult fit =
-        valueOf(fitReflectanceField(source, optionsFor(model, 4)));  // refuses what is not finite
+        valueOf(fitReflectanceField(source, lafOptions(model, 4)));  // refuses what is not finite
     EXPECT_LT(glm::length(fit.field.evaluateLayer(0, 0, 3, directionFromDegrees(20, 20), {0, 0, 1})), 1e-3f);
     EXPECT_TRUE(std::isfinite(epsilon(fit)));
     EXPECT_GT(fit.field.evaluateLayer(3, 0, 0, directionFromDegrees(20, 20), {0, 0, 1}).y, 0.05f) << model;
@@ -136,22 +134,23 @@ TEST(LafFit, FewerSamplesThanNumbersAreRefused) {
   MemoryBtf source(1, 1, [](int, int, glm::vec3, glm::vec3 l) { return glm::vec3(l.z); });
   source.description().lights.resize(4);
   source.description().views.resize(4);
-  const auto fit = fitReflectanceField(source, optionsFor("laf", 4));
+  const auto fit = fitReflectanceField(source, lafOptions("laf", 4));
   ASSERT_FALSE(fit);
   EXPECT_NE(fit.error().message().find("16 samples"), std::string::npos) << fit.error().message();
-  EXPECT_TRUE(fitReflectanceField(source, optionsFor("laf", 3)));
-  EXPECT_FALSE(fitReflectanceField(source, optionsFor("slaf", 3)));
+  EXPECT_TRUE(fitReflectanceField(source, lafOptions("laf", 3)));
+  EXPECT_FALSE(fitReflectanceField(source, lafOptions("slaf", 3)));
 }
 
 TEST(LafFit, OneViewIsEnough) {
   const glm::vec3 view = directionFromDegrees(50, 0);
-  MemoryBtf source(1, 1, [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLobes(v, l)); });
+  MemoryBtf source(1, 1,
+                   [](int, int, glm::vec3 v, glm::vec3 l) { return glm::vec3(l.z * twoLafLobes(v, l)); });
   source.description().views = {view};
   for (const char* model : {"laf", "slaf"}) {
-    const FitResult fit = valueOf(fitReflectanceField(source, optionsFor(model, 2)));
+    const FitResult fit = valueOf(fitReflectanceField(source, lafOptions(model, 2)));
     EXPECT_LT(epsilon(fit), 3e-3) << model;
     EXPECT_NEAR(fit.field.evaluate(0, 0, directionFromDegrees(52, 170), view).x,
-                directionFromDegrees(52, 170).z * twoLobes(view, directionFromDegrees(52, 170)), 0.02);
+                directionFromDegrees(52, 170).z * twoLafLobes(view, directionFromDegrees(52, 170)), 0.02);
   }
 }
 
@@ -189,7 +188,7 @@ TEST(LafFit, SlafLiesBetweenRfnlAndLafOnRealMaterials) {
     WEFT_DATA_FILE(file, known.file);
     const auto source = valueOf(openBtf(file));
     const auto fitOf = [&](const char* model, int lobes) {
-      FitOptions options = optionsFor(model, lobes);
+      FitOptions options = lafOptions(model, lobes);
       options.crop = Crop{0, 28, 64, 1};
       return valueOf(fitReflectanceField(*source, options));
     };

@@ -17,12 +17,12 @@ namespace {
 using test::MemoryBtf;
 using test::valueOf;
 
-constexpr int kSize = 24;
-constexpr float kHeight = 2.0f;
+constexpr int kTexelsASide = 24;
+constexpr float kReliefHeight = 2.0f;
 
 float noise(int x, int y, int which) {
-  const double value =
-      std::sin(12.9898 * ((x + kSize) % kSize) + 78.233 * ((y + kSize) % kSize) + 37.7 * which);
+  const double value = std::sin(12.9898 * ((x + kTexelsASide) % kTexelsASide) +
+                                78.233 * ((y + kTexelsASide) % kTexelsASide) + 37.7 * which);
   return static_cast<float>(43758.5453 * value - std::floor(43758.5453 * value));
 }
 
@@ -37,7 +37,7 @@ glm::vec3 surface(int x, int y, glm::vec3 v, glm::vec3 l, bool isColored) {
 
 // Seen in relief: a view sees the texel that lies farther along it.
 MemoryBtf relief(float height, bool isColored = false) {
-  return MemoryBtf(kSize, kSize, [=](int x, int y, glm::vec3 v, glm::vec3 l) {
+  return MemoryBtf(kTexelsASide, kTexelsASide, [=](int x, int y, glm::vec3 v, glm::vec3 l) {
     const glm::vec2 shift = glm::round(height * reliefTangent(v));
     return surface(x + static_cast<int>(shift.x), y - static_cast<int>(shift.y), v, l, isColored);
   });
@@ -57,13 +57,13 @@ TEST(LoomFitter, ReliefIsRegisteredAndRecovered) {
   const FitResult flat = fitOf(relief(0.0f));
   EXPECT_EQ(flat.field.model().registration().height, 0.0f);
   EXPECT_LT(storedError(flat.errors), 0.004);
-  const FitResult raised = fitOf(relief(kHeight));
-  EXPECT_NEAR(raised.field.model().registration().height, kHeight, 0.25f);
+  const FitResult raised = fitOf(relief(kReliefHeight));
+  EXPECT_NEAR(raised.field.model().registration().height, kReliefHeight, 0.25f);
   EXPECT_LT(storedError(raised.errors), 0.004);
 }
 
 TEST(LoomFitter, HueThatChangesWithTheViewIsKept) {
-  EXPECT_LT(storedError(fitOf(relief(kHeight, true)).errors, ErrorMeasure::Rgb), 0.006);
+  EXPECT_LT(storedError(fitOf(relief(kReliefHeight, true)).errors, ErrorMeasure::Rgb), 0.006);
 }
 
 // Half a step of what a GPU keeps of a weight is what rounding may cost.
@@ -115,7 +115,7 @@ TEST(LoomFitter, LevelsAreTheFilteredField) {
                                     light, view);
   };
   for (int level = 1; level < 4; ++level) {
-    const int side = kSize >> level, step = 1 << level;
+    const int side = kTexelsASide >> level, step = 1 << level;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
         glm::vec3 mean(0.0f);
@@ -129,8 +129,8 @@ TEST(LoomFitter, LevelsAreTheFilteredField) {
   const FloatImage& finest = field.shared();
   for (int k = 3; k < finest.channelCount(); ++k) {
     float mean = 0.0f;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) mean += finest.at(x, y, k) / (kSize * kSize);
+    for (int y = 0; y < kTexelsASide; ++y)
+      for (int x = 0; x < kTexelsASide; ++x) mean += finest.at(x, y, k) / (kTexelsASide * kTexelsASide);
     EXPECT_NEAR(field.levels().back().shared.at(0, 0, k), mean, 0.005f);
   }
 }
@@ -172,7 +172,7 @@ TEST(LoomFitter, ANumberOfComponentsThatIsNoMultipleOf4IsRefused) {
 }
 
 TEST(LoomFitter, GivesTheSameForAnyBlocks) {
-  MemoryBtf source = relief(kHeight);
+  MemoryBtf source = relief(kReliefHeight);
   source.description().height = 50;  // rows that repeat
   FitOptions options;
   options.model = {"loom", {{"components", 8}}};

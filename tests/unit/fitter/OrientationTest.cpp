@@ -480,7 +480,7 @@ std::unique_ptr<BtfSource> open(const std::filesystem::path& file) {
   return valueOf(openBtf(file));
 }
 
-FitOptions optionsFor(const char* model) {
+FitOptions optionsOf(const char* model) {
   FitOptions options;
   options.model.name = model;
   return options;
@@ -532,7 +532,7 @@ TEST(OrientationOfCorduroy, LightsAndViewsShareAFrameAndThePileLeans) {
 
 TEST(OrientationOfFit, Wool) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
-  const Material wool = fitted(open(file), optionsFor("rfp"));
+  const Material wool = fitted(open(file), optionsOf("rfp"));
   expectLitRibs(wool);
   expectParallax(wool);
   expectHiddenShadows(wool);
@@ -540,14 +540,14 @@ TEST(OrientationOfFit, Wool) {
 
 TEST(OrientationOfFit, WoolInLobes) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_WOOL64.zip");
-  FitOptions options = optionsFor("rfnl");
+  FitOptions options = optionsOf("rfnl");
   options.crop = Crop{0, 30, 64, 4};
   EXPECT_GT(printed("ribs.columns", ribScore(fitted(open(file), options), Axis::Columns)), 0.7);
 }
 
 TEST(OrientationOfFit, Corduroy) {
   WEFT_DATA_FILE(file, "ubo2003/UBO_CORDUROY64.zip");
-  const Material corduroy = fitted(open(file), optionsFor("rfp"));
+  const Material corduroy = fitted(open(file), optionsOf("rfp"));
   expectSharedFrame(corduroy, 60);
   expectLeaningPile(corduroy);
   expectParallax(corduroy);

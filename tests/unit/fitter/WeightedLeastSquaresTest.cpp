@@ -12,21 +12,21 @@ namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Matrix randomMatrix(std::size_t rows, std::size_t columns, float low, float high) {
+Matrix randomFloats(std::size_t rows, std::size_t columns, float low, float high) {
   static std::mt19937 random(7);
   std::uniform_real_distribution<float> distribution(low, high);
   return Matrix::NullaryExpr(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns),
                              [&] { return distribution(random); });
 }
 
-std::span<const float> floatsOf(const Matrix& matrix) {
+std::span<const float> spanOf(const Matrix& matrix) {
   return {matrix.data(), static_cast<std::size_t>(matrix.size())};
 }
 
 Matrix solved(const Matrix& terms, const Matrix& values, const Matrix& squares) {
-  const WeightedLeastSquares solver(floatsOf(terms), static_cast<std::size_t>(terms.cols()));
+  const WeightedLeastSquares solver(spanOf(terms), static_cast<std::size_t>(terms.cols()));
   Matrix solutions = Matrix::Constant(values.rows(), terms.cols(), -7.0f);
-  solver.solve(floatsOf(values), floatsOf(squares),
+  solver.solve(spanOf(values), spanOf(squares),
                {solutions.data(), static_cast<std::size_t>(solutions.size())});
   return solutions;
 }
@@ -37,9 +37,9 @@ class WeightedLeastSquaresTest : public testing::TestWithParam<Sizes> {};
 
 TEST_P(WeightedLeastSquaresTest, IsThatOfAHouseholderDecomposition) {
   const auto [samples, unknowns, sets] = GetParam();
-  const Matrix terms = randomMatrix(samples, unknowns, -1, 1);
-  const Matrix values = randomMatrix(sets, samples, 0, 1);
-  const Matrix squares = randomMatrix(sets, samples, 0.05f, 9);
+  const Matrix terms = randomFloats(samples, unknowns, -1, 1);
+  const Matrix values = randomFloats(sets, samples, 0, 1);
+  const Matrix squares = randomFloats(sets, samples, 0.05f, 9);
   const Matrix solutions = solved(terms, values, squares);
   for (Eigen::Index set = 0; set < solutions.rows(); ++set) {
     const Eigen::VectorXd w = squares.row(set).cast<double>().cwiseSqrt();
@@ -53,10 +53,10 @@ TEST_P(WeightedLeastSquaresTest, IsThatOfAHouseholderDecomposition) {
 
 TEST_P(WeightedLeastSquaresTest, FindsTheFactorsOfAProduct) {
   const auto [samples, unknowns, sets] = GetParam();
-  const Matrix terms = randomMatrix(samples, unknowns, -1, 1);
-  const Matrix factors = randomMatrix(sets, unknowns, -1, 1);
+  const Matrix terms = randomFloats(samples, unknowns, -1, 1);
+  const Matrix factors = randomFloats(sets, unknowns, -1, 1);
   const Matrix values = factors * terms.transpose();
-  const Matrix found = solved(terms, values, randomMatrix(sets, samples, 0.05f, 9));
+  const Matrix found = solved(terms, values, randomFloats(sets, samples, 0.05f, 9));
   EXPECT_LT((found - factors).cwiseAbs().maxCoeff(), 1e-3f);
 }
 
@@ -65,9 +65,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, WeightedLeastSquaresTest,
                                          Sizes{1000, 48, 9}, Sizes{640, 13, 70}));
 
 TEST(WeightedLeastSquares, SetsWithoutWeightOrLightAreZero) {
-  const Matrix terms = randomMatrix(500, 16, -1, 1);
-  Matrix squares = randomMatrix(3, 500, 1, 100);
-  Matrix values = randomMatrix(3, 500, 0, 1);
+  const Matrix terms = randomFloats(500, 16, -1, 1);
+  Matrix squares = randomFloats(3, 500, 1, 100);
+  Matrix values = randomFloats(3, 500, 0, 1);
   squares.row(0).setZero();
   values.row(1).setZero();
   const Matrix solutions = solved(terms, values, squares);
@@ -76,10 +76,10 @@ TEST(WeightedLeastSquares, SetsWithoutWeightOrLightAreZero) {
 }
 
 TEST(WeightedLeastSquares, UnknownsWithoutTermsAreZero) {
-  Matrix terms = randomMatrix(500, 8, -1, 1);
+  Matrix terms = randomFloats(500, 8, -1, 1);
   terms.rightCols(3).setZero();
-  const Matrix values = randomMatrix(4, 500, 0, 1);
-  const Matrix squares = randomMatrix(4, 500, 1, 100);
+  const Matrix values = randomFloats(4, 500, 0, 1);
+  const Matrix squares = randomFloats(4, 500, 1, 100);
   const Matrix solutions = solved(terms, values, squares);
   EXPECT_TRUE(solutions.rightCols(3).isZero(0.0f));
   EXPECT_LT((solutions.leftCols(5) - solved(terms.leftCols(5), values, squares)).cwiseAbs().maxCoeff(),
@@ -87,8 +87,8 @@ TEST(WeightedLeastSquares, UnknownsWithoutTermsAreZero) {
 }
 
 TEST(WeightedLeastSquares, FewSamplesAreReproducedByBoundedSolutions) {
-  const Matrix terms = randomMatrix(500, 16, -1, 1);
-  const Matrix values = randomMatrix(2, 500, 0, 1);
+  const Matrix terms = randomFloats(500, 16, -1, 1);
+  const Matrix values = randomFloats(2, 500, 0, 1);
   Matrix squares = Matrix::Zero(2, 500);
   squares.leftCols(5).setConstant(50.0f);  // fewer samples than unknowns
   const Matrix solutions = solved(terms, values, squares);
@@ -99,29 +99,29 @@ TEST(WeightedLeastSquares, FewSamplesAreReproducedByBoundedSolutions) {
 
 // Two equal terms share what one of them would have.
 TEST(WeightedLeastSquares, DependentTermsGiveBoundedSolutions) {
-  Matrix terms = randomMatrix(500, 6, -1, 1);
+  Matrix terms = randomFloats(500, 6, -1, 1);
   terms.col(4) = terms.col(1);
-  const Matrix values = randomMatrix(2, 500, 0, 1);
+  const Matrix values = randomFloats(2, 500, 0, 1);
   const Matrix solutions = solved(terms, values, Matrix::Ones(2, 500));
   EXPECT_TRUE(solutions.allFinite());
   EXPECT_LT(solutions.cwiseAbs().maxCoeff(), 2.0f);
 }
 
 TEST(WeightedLeastSquares, ASetDoesNotDependOnTheOthers) {
-  const Matrix terms = randomMatrix(500, 20, -1, 1);
-  const Matrix values = randomMatrix(40, 500, 0, 1);
-  const Matrix squares = randomMatrix(40, 500, 1, 100);
+  const Matrix terms = randomFloats(500, 20, -1, 1);
+  const Matrix values = randomFloats(40, 500, 0, 1);
+  const Matrix squares = randomFloats(40, 500, 1, 100);
   const Matrix together = solved(terms, values, squares);
   for (Eigen::Index set : {0, 31, 32, 39})
     EXPECT_EQ(solved(terms, values.row(set), squares.row(set)), together.row(set));
 }
 
 TEST(WeightedLeastSquares, ProjectsByTheTerms) {
-  const Matrix terms = randomMatrix(500, 20, -1, 1);
-  const Matrix values = randomMatrix(40, 500, 0, 1);
+  const Matrix terms = randomFloats(500, 20, -1, 1);
+  const Matrix values = randomFloats(40, 500, 0, 1);
   Matrix products(40, 20);
-  WeightedLeastSquares(floatsOf(terms), 20)
-      .project(floatsOf(values), {products.data(), static_cast<std::size_t>(products.size())});
+  WeightedLeastSquares(spanOf(terms), 20)
+      .project(spanOf(values), {products.data(), static_cast<std::size_t>(products.size())});
   EXPECT_LT((products - values * terms).cwiseAbs().maxCoeff(), 1e-4f);
 }
 

@@ -46,7 +46,7 @@ void expectSameByName(const FloatImage& actual, const FloatImage& expected) {
   }
 }
 
-std::string errorOf(const fs::path& file) {
+std::string errorOfExr(const fs::path& file) {
   const auto image = readExr(file);
   return image ? "read" : image.error().message();
 }
@@ -153,15 +153,15 @@ TEST(ExrFile, RefusesIntegerChannels) {
     output.setFrameBuffer(buffer);
     output.writePixels(4);
   }
-  EXPECT_THAT(errorOf(file), HasSubstr("channel 'id' is integer or subsampled"));
+  EXPECT_THAT(errorOfExr(file), HasSubstr("channel 'id' is integer or subsampled"));
 }
 
 TEST(ExrFile, RefusesMissingAndForeignFiles) {
   const fs::path folder = test::testFolder();
-  EXPECT_THAT(errorOf(folder / "none.exr"), HasSubstr("none.exr: no such file"));
+  EXPECT_THAT(errorOfExr(folder / "none.exr"), HasSubstr("none.exr: no such file"));
   test::writeBytes(folder / "text.exr", {'h', 'e', 'l', 'l', 'o'});
-  EXPECT_THAT(errorOf(folder / "text.exr"), HasSubstr("text.exr: this is a text, not an OpenEXR file"));
-  EXPECT_NE(errorOf(folder), "read");
+  EXPECT_THAT(errorOfExr(folder / "text.exr"), HasSubstr("text.exr: this is a text, not an OpenEXR file"));
+  EXPECT_NE(errorOfExr(folder), "read");
 }
 
 TEST(ExrFile, RefusesEveryTruncation) {
@@ -170,7 +170,7 @@ TEST(ExrFile, RefusesEveryTruncation) {
   const test::Bytes whole = test::bytesOf(file);
   for (std::size_t size = 0; size < whole.size(); size += 7) {
     test::writeBytes(file, test::Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
-    ASSERT_THAT(errorOf(file), HasSubstr("a.exr: ")) << size;
+    ASSERT_THAT(errorOfExr(file), HasSubstr("a.exr: ")) << size;
   }
 }
 
@@ -186,7 +186,7 @@ TEST(ExrFile, RefusesAnAttributeLargerThanTheFile) {
   ASSERT_NE(at, bytes.end());
   std::copy_n("\xff\xff\xff\x7f", 4, at + sizeof(tag));
   test::writeBytes(file, bytes);
-  EXPECT_THAT(errorOf(file), HasSubstr("the OpenEXR header is damaged"));
+  EXPECT_THAT(errorOfExr(file), HasSubstr("the OpenEXR header is damaged"));
 }
 
 TEST(ExrFile, RefusesPixelsThatTheFileCannotHold) {
@@ -202,11 +202,11 @@ TEST(ExrFile, RefusesPixelsThatTheFileCannotHold) {
     test::writeBytes(file, bytes);
   };
   setMaximum(16383, 16383);
-  EXPECT_NE(errorOf(file), "read");
+  EXPECT_NE(errorOfExr(file), "read");
   setMaximum(99999, 34);
-  EXPECT_NE(errorOf(file), "read");
+  EXPECT_NE(errorOfExr(file), "read");
   setMaximum(16383, 3000);
-  EXPECT_NE(errorOf(file), "read");
+  EXPECT_NE(errorOfExr(file), "read");
 }
 
 TEST(ExrFile, SurvivesMutations) {

@@ -90,7 +90,7 @@ Picture pictureOf(const fs::path& file) {
   return picture;
 }
 
-std::string errorOf(const fs::path& file) {
+std::string errorOfPicture(const fs::path& file) {
   std::vector<std::string> warnings;
   const auto image = readExrPicture(file, warnings);
   return image ? "read" : image.error().message();
@@ -101,9 +101,10 @@ TEST(ExrPicture, DepthIsNoPicture) {
   EXPECT_EQ(picture.at(0, 0), glm::vec3(1, 11, 21));
   EXPECT_EQ(picture.at(3, 1), glm::vec3(1.4375f, 11.4375f, 21.4375f));
   EXPECT_THAT(picture.warnings, IsEmpty());
-  EXPECT_THAT(errorOf(exrOf({{"depth", {{"Z", 5}}}})), HasSubstr("a.exr: the file holds no picture"));
-  EXPECT_THAT(errorOf(exrOf({{"depth", colors("", 1)}})), HasSubstr("no picture"));
-  EXPECT_THAT(errorOf(exrOf({{"normals", {{"X", 1}, {"Y", 1}, {"Z", 1}}}})), HasSubstr("only X, Y, Z"));
+  EXPECT_THAT(errorOfPicture(exrOf({{"depth", {{"Z", 5}}}})), HasSubstr("a.exr: the file holds no picture"));
+  EXPECT_THAT(errorOfPicture(exrOf({{"depth", colors("", 1)}})), HasSubstr("no picture"));
+  EXPECT_THAT(errorOfPicture(exrOf({{"normals", {{"X", 1}, {"Y", 1}, {"Z", 1}}}})),
+              HasSubstr("only X, Y, Z"));
 }
 
 TEST(ExrPicture, LayersOfRenderers) {
@@ -136,15 +137,15 @@ TEST(ExrPicture, ThePictureWithoutALayersName) {
 }
 
 TEST(ExrPicture, SeveralPicturesAreListed) {
-  EXPECT_THAT(errorOf(exrOf({{"left", colors("", 1)}, {"right", colors("", 2)}})),
+  EXPECT_THAT(errorOfPicture(exrOf({{"left", colors("", 1)}, {"right", colors("", 2)}})),
               HasSubstr("a.exr: the file holds several pictures: left, right"));
   std::vector<TestPart> parts;
   for (int i = 0; i < 12; ++i) parts.push_back({"light" + std::to_string(i + 10), colors("", 1)});
-  EXPECT_THAT(errorOf(exrOf(parts)), HasSubstr("light16, light17 and 4 more"));
+  EXPECT_THAT(errorOfPicture(exrOf(parts)), HasSubstr("light16, light17 and 4 more"));
 }
 
 TEST(ExrPicture, NamesOfLayersArePrintable) {
-  const std::string message = errorOf(exrOf({{"\x1b[2J", colors("", 1)}, {"\xff", colors("", 2)}}));
+  const std::string message = errorOfPicture(exrOf({{"\x1b[2J", colors("", 1)}, {"\xff", colors("", 2)}}));
   EXPECT_THAT(message, HasSubstr("\\x1b[2J, \\xff"));
 }
 
@@ -173,9 +174,9 @@ TEST(ExrPicture, DataWindowsArePlaced) {
   EXPECT_EQ(picture.at(1, 0), glm::vec3(1 + 5 * .125f + 8 * .0625f, 12.125f, 22.125f));
   EXPECT_THAT(picture.warnings, ElementsAre(HasSubstr("outside of the display window are left out")));
 
-  EXPECT_THAT(errorOf(exrOf({{"", colors("", 1), kWindow, Imath::Box2i({10, 0}, {13, 1})}})),
+  EXPECT_THAT(errorOfPicture(exrOf({{"", colors("", 1), kWindow, Imath::Box2i({10, 0}, {13, 1})}})),
               HasSubstr("outside of its display window"));
-  EXPECT_THAT(errorOf(exrOf({{"", colors("", 1), kWindow, Imath::Box2i({0, 0}, {8191, 4095})}})),
+  EXPECT_THAT(errorOfPicture(exrOf({{"", colors("", 1), kWindow, Imath::Box2i({0, 0}, {8191, 4095})}})),
               HasSubstr("4 x 2 pixels alone"));
 }
 
@@ -221,9 +222,9 @@ TEST(ExrPicture, LuminanceAndChroma) {
 TEST(ExrPicture, WhatIsNotSupportedIsNamed) {
   TestPart integers{"", {{"R", 0}, {"G", 0}, {"B", 0}}};
   integers.type = Imf::UINT;
-  EXPECT_THAT(errorOf(exrOf({integers})), HasSubstr("channel 'R' is of integers"));
-  EXPECT_THAT(errorOf(exrOf({{"", colors("", 1)}},
-                            [](Imf::Header& header) { Imf::addEnvmap(header, Imf::ENVMAP_CUBE); })),
+  EXPECT_THAT(errorOfPicture(exrOf({integers})), HasSubstr("channel 'R' is of integers"));
+  EXPECT_THAT(errorOfPicture(exrOf({{"", colors("", 1)}},
+                                   [](Imf::Header& header) { Imf::addEnvmap(header, Imf::ENVMAP_CUBE); })),
               HasSubstr("a cube map (exrenvmap -latlong"));
 }
 
@@ -261,7 +262,7 @@ TEST(ExrPicture, ClaimsAreProvedBeforeMemoryIsTaken) {
     bytes.erase(bytes.end() - 40, bytes.end());
     test::writeBytes(test::testFolder() / "cut.exr", bytes);
     const std::uint64_t before = test::peakMemory();
-    EXPECT_NE(errorOf(test::testFolder() / "cut.exr"), "read") << compression;
+    EXPECT_NE(errorOfPicture(test::testFolder() / "cut.exr"), "read") << compression;
     EXPECT_LT(test::peakMemory() - before, std::uint64_t{60} << 20) << compression;
   }
   EXPECT_EQ(pictureOf(blackPicture(4096, 2048, Imf::DWAB_COMPRESSION)).at(4095, 2047), glm::vec3(0));
@@ -292,7 +293,7 @@ TEST(ExrPicture, AMillionChannelsTakeNoMemory) {
   const fs::path file = test::testFolder() / "channels.exr";
   test::writeBytes(file, bytes);
   const std::uint64_t before = test::peakMemory();
-  EXPECT_THAT(errorOf(file), HasSubstr("attributes and channels in a file of"));
+  EXPECT_THAT(errorOfPicture(file), HasSubstr("attributes and channels in a file of"));
   EXPECT_LT(test::peakMemory() - before, std::uint64_t{100} << 20);
 }
 
@@ -308,7 +309,7 @@ TEST(ExrPicture, AHundredThousandPartsTakeNoMemory) {
   const fs::path file = test::testFolder() / "parts.exr";
   test::writeBytes(file, bytes);
   const std::uint64_t before = test::peakMemory();
-  EXPECT_THAT(errorOf(file), HasSubstr("attributes and channels in a file of"));
+  EXPECT_THAT(errorOfPicture(file), HasSubstr("attributes and channels in a file of"));
   EXPECT_LT(test::peakMemory() - before, std::uint64_t{100} << 20);
 }
 

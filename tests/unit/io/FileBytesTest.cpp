@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string errorOf(const fs::path& file, std::size_t limit = 100) {
+std::string errorOfBytes(const fs::path& file, std::size_t limit = 100) {
   const auto bytes = readFileBytes(file, limit);
   return bytes ? "read" : bytes.error().message();
 }
@@ -27,17 +27,17 @@ TEST(FileBytes, AreThoseOfTheFile) {
   test::writeBytes(file, {1, 2, 3});
   EXPECT_EQ(test::valueOf(readFileBytes(file, 3)), (test::Bytes{1, 2, 3}));
   EXPECT_EQ(test::valueOf(regularFileSize(file)), 3u);
-  EXPECT_THAT(errorOf(file, 2), HasSubstr("file: the file has 3 bytes, more than the 2 allowed"));
+  EXPECT_THAT(errorOfBytes(file, 2), HasSubstr("file: the file has 3 bytes, more than the 2 allowed"));
 }
 
 TEST(FileBytes, SayWhyTheyCannotBeRead) {
   const fs::path folder = test::testFolder();
-  EXPECT_THAT(errorOf(folder / "none"), HasSubstr("none: no such file"));
-  EXPECT_THAT(errorOf(folder), HasSubstr(folder.string() + ": cannot be read: a folder, not a file"));
-  EXPECT_THAT(errorOf(folder / std::string(300, 'n')), HasSubstr("cannot be read: File name too long"));
+  EXPECT_THAT(errorOfBytes(folder / "none"), HasSubstr("none: no such file"));
+  EXPECT_THAT(errorOfBytes(folder), HasSubstr(folder.string() + ": cannot be read: a folder, not a file"));
+  EXPECT_THAT(errorOfBytes(folder / std::string(300, 'n')), HasSubstr("cannot be read: File name too long"));
   const fs::path fifo = folder / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-  EXPECT_THAT(errorOf(fifo), HasSubstr("fifo: cannot be read: not a file"));
+  EXPECT_THAT(errorOfBytes(fifo), HasSubstr("fifo: cannot be read: not a file"));
 }
 
 TEST(FileBytes, ThatMayNotBeReadAreNotCalledMissing) {
@@ -47,7 +47,7 @@ TEST(FileBytes, ThatMayNotBeReadAreNotCalledMissing) {
     fs::permissions(closed, fs::perms::none);
     {
       const test::UnprivilegedUser user;
-      EXPECT_THAT(errorOf(file), HasSubstr("file: cannot be read: Permission denied"));
+      EXPECT_THAT(errorOfBytes(file), HasSubstr("file: cannot be read: Permission denied"));
     }
     fs::permissions(closed, fs::perms::owner_all);
   }
@@ -60,7 +60,7 @@ TEST(FileBytes, NobodyWaitsForAPipe) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::vector<std::string> warnings;
   for (const std::string& message :
-       {errorOf(pipe), readImage(pipe).error().message(), readExr(pipe).error().message(),
+       {errorOfBytes(pipe), readImage(pipe).error().message(), readExr(pipe).error().message(),
         readExrPicture(pipe, warnings).error().message(), environmentNamed(pipe, warnings).error().message(),
         readReflectanceField(pipe, ModelRegistry::builtin()).error().message()})
     EXPECT_THAT(message, HasSubstr("pipe.rf.exr: cannot be read: not a file"));

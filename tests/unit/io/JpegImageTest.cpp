@@ -80,7 +80,7 @@ Bytes bytesOf(const TestJpeg& image) {
   return bytes;
 }
 
-std::string errorOf(const Bytes& bytes) {
+std::string errorOfJpeg(const Bytes& bytes) {
   const auto image = decodeImage(bytes, "a.jpg");
   return image ? "decoded" : image.error().message();
 }
@@ -104,7 +104,7 @@ TEST(JpegImage, GreyAndRgbOfAllCodings) {
 
 TEST(JpegImage, WhatIsNotReadIsNamed) {
   for (const J_COLOR_SPACE stored : {JCS_CMYK, JCS_YCCK}) {
-    const std::string message = errorOf(bytesOf({.pixels = JCS_CMYK, .stored = stored}));
+    const std::string message = errorOfJpeg(bytesOf({.pixels = JCS_CMYK, .stored = stored}));
     EXPECT_THAT(message, HasSubstr("a.jpg: the JPEG is CMYK, made for printing (convert it to RGB)"));
   }
   Bytes bytes = bytesOf({});
@@ -112,24 +112,24 @@ TEST(JpegImage, WhatIsNotReadIsNamed) {
                                  [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
   ASSERT_NE(frame, bytes.end());
   frame[4] = 12;
-  EXPECT_THAT(errorOf(bytes),
+  EXPECT_THAT(errorOfJpeg(bytes),
               HasSubstr("this kind of JPEG is not supported: Unsupported JPEG data precision 12"));
   frame[1] = 0xc3;
-  EXPECT_THAT(errorOf(bytes), HasSubstr("this kind of JPEG is not supported"));
+  EXPECT_THAT(errorOfJpeg(bytes), HasSubstr("this kind of JPEG is not supported"));
 }
 
 TEST(JpegImage, OtherFilesAreNamed) {
-  EXPECT_THAT(errorOf({'G', 'I', 'F', '8', '9', 'a'}),
+  EXPECT_THAT(errorOfJpeg({'G', 'I', 'F', '8', '9', 'a'}),
               HasSubstr("a.jpg: this is an image of another format, not a JPEG or PNG image"));
-  EXPECT_THAT(errorOf({}), HasSubstr("a.jpg: this is an empty file, not a JPEG or PNG image"));
-  EXPECT_THAT(errorOf({0x1b, '['}), HasSubstr("a.jpg: this is not a JPEG or PNG image"));
+  EXPECT_THAT(errorOfJpeg({}), HasSubstr("a.jpg: this is an empty file, not a JPEG or PNG image"));
+  EXPECT_THAT(errorOfJpeg({0x1b, '['}), HasSubstr("a.jpg: this is not a JPEG or PNG image"));
 }
 
 // Cameras leave bytes before the end; before other markers they are pixels that are lost.
 TEST(JpegImage, BytesBeforeTheEndAreHarmless) {
   Bytes bytes = bytesOf({});
   bytes.insert(bytes.end() - 2, {1, 2, 3});
-  EXPECT_EQ(errorOf(bytes), "decoded");
+  EXPECT_EQ(errorOfJpeg(bytes), "decoded");
 }
 
 /// TIFF with one directory, which holds the orientation.
@@ -205,7 +205,7 @@ TEST(JpegImage, EmptyPicturesAreWellPacked) {
     for (const bool arithmetic : {false, true}) {
       const Bytes bytes =
           bytesOf({.width = 2000, .height = 1000, .progressive = progressive, .arithmetic = arithmetic});
-      EXPECT_EQ(errorOf(bytes), "decoded") << bytes.size();
+      EXPECT_EQ(errorOfJpeg(bytes), "decoded") << bytes.size();
     }
 }
 
@@ -221,7 +221,7 @@ TEST(JpegImage, ClaimsAreProvedBeforeMemoryIsTaken) {
         }
       bytes.resize(67000);
       const std::uint64_t before = test::peakMemory();
-      EXPECT_THAT(errorOf(bytes),
+      EXPECT_THAT(errorOfJpeg(bytes),
                   HasSubstr("a.jpg: an image of 16384 x 4096 pixels cannot be in 67000 bytes"));
       EXPECT_LT(test::peakMemory() - before, std::uint64_t{60} << 20);
     }

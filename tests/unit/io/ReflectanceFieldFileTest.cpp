@@ -68,7 +68,7 @@ void expectEqual(const FloatImage& actual, const FloatImage& expected) {
   EXPECT_TRUE(std::equal(actual.values().begin(), actual.values().end(), expected.values().begin()));
 }
 
-std::string errorOf(const fs::path& file) {
+std::string errorOfField(const fs::path& file) {
   const auto field = readReflectanceField(file, ModelRegistry::builtin());
   return field ? "read" : field.error().message();
 }
@@ -159,9 +159,9 @@ TEST(ReflectanceFieldFile, KeepsLevelsTablesAndOptions) {
 TEST(ReflectanceFieldFile, ARegistryWithoutTheModelSaysWhichItHas) {
   const fs::path path = test::testFolder() / "a.rf.exr";
   requireDone(writeReflectanceField(rampField(), path));
-  EXPECT_EQ(errorOf(path), path.string() +
-                               ": unknown model 'ramp' (known are rfp, lfp, ptm, rfnl, lfnl, "
-                               "laf, slaf, bump, loom)");
+  EXPECT_EQ(errorOfField(path), path.string() +
+                                    ": unknown model 'ramp' (known are rfp, lfp, ptm, rfnl, lfnl, "
+                                    "laf, slaf, bump, loom)");
 }
 
 // The manifest of a file, changed in one place.
@@ -252,9 +252,10 @@ TEST(ReflectanceFieldFile, RefusesAFitReportThatIsNotJson) {
 
 TEST(ReflectanceFieldFile, RefusesMissingAndForeignFiles) {
   const fs::path folder = test::testFolder();
-  EXPECT_THAT(errorOf(folder / "none.rf.exr"), HasSubstr("none.rf.exr: no such file"));
+  EXPECT_THAT(errorOfField(folder / "none.rf.exr"), HasSubstr("none.rf.exr: no such file"));
   test::writeBytes(folder / "text.rf.exr", {'h', 'e', 'l', 'l', 'o'});
-  EXPECT_THAT(errorOf(folder / "text.rf.exr"), HasSubstr("text.rf.exr: this is a text, not an OpenEXR file"));
+  EXPECT_THAT(errorOfField(folder / "text.rf.exr"),
+              HasSubstr("text.rf.exr: this is a text, not an OpenEXR file"));
 }
 
 TEST(ReflectanceFieldFile, RefusesEveryTruncation) {
@@ -263,7 +264,7 @@ TEST(ReflectanceFieldFile, RefusesEveryTruncation) {
   const test::Bytes whole = test::bytesOf(file);
   for (std::size_t size = 0; size < whole.size(); size += 61) {
     test::writeBytes(file, test::Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
-    ASSERT_THAT(errorOf(file), HasSubstr("a.rf.exr: ")) << size;
+    ASSERT_THAT(errorOfField(file), HasSubstr("a.rf.exr: ")) << size;
   }
 }
 
@@ -279,7 +280,7 @@ TEST(ReflectanceFieldFile, SurvivesMutations) {
       bytes[(random >> 8) % (i % 2 ? std::size_t{2000} : bytes.size())] = static_cast<std::uint8_t>(random);
     }
     test::writeBytes(file, bytes);
-    EXPECT_NE(errorOf(file), "");  // read or refused, without harm
+    EXPECT_NE(errorOfField(file), "");  // read or refused, without harm
   }
 }
 
@@ -327,14 +328,14 @@ struct ForeignFile {
   }
 };
 
-std::string errorOf(const ForeignFile& foreign) {
+std::string errorOfField(const ForeignFile& foreign) {
   const fs::path file = test::testFolder() / "foreign.rf.exr";
   foreign.write(file);
-  return errorOf(file);
+  return errorOfField(file);
 }
 
 TEST(ReflectanceFieldFile, ReadsAFileByAnotherHand) {
-  EXPECT_EQ(errorOf(ForeignFile()), "read");
+  EXPECT_EQ(errorOfField(ForeignFile()), "read");
 }
 
 TEST(ReflectanceFieldFile, RefusesWrongManifests) {
@@ -361,31 +362,31 @@ TEST(ReflectanceFieldFile, RefusesWrongManifests) {
   for (const auto& [what, with, message] : changes) {
     ForeignFile foreign;
     foreign.replace(what, with);
-    EXPECT_THAT(errorOf(foreign), HasSubstr("foreign.rf.exr: "));
-    EXPECT_THAT(errorOf(foreign), HasSubstr(message));
+    EXPECT_THAT(errorOfField(foreign), HasSubstr("foreign.rf.exr: "));
+    EXPECT_THAT(errorOfField(foreign), HasSubstr(message));
   }
 }
 
 TEST(ReflectanceFieldFile, RefusesWrongParts) {
   ForeignFile names;
   names.viewName = "view001";
-  EXPECT_THAT(errorOf(names), HasSubstr("part 1 is not named 'view000'"));
+  EXPECT_THAT(errorOfField(names), HasSubstr("part 1 is not named 'view000'"));
   ForeignFile channels;
   channels.viewChannels = {"a0", "a1", "a2", "a3", "a4", "b5"};
-  EXPECT_THAT(errorOf(channels), HasSubstr("the channels of part 'view000' are not those of the model"));
+  EXPECT_THAT(errorOfField(channels), HasSubstr("the channels of part 'view000' are not those of the model"));
   ForeignFile sharedChannels;
   sharedChannels.sharedChannels = {"R", "G"};
-  EXPECT_THAT(errorOf(sharedChannels), HasSubstr("the channels of part 'shared'"));
+  EXPECT_THAT(errorOfField(sharedChannels), HasSubstr("the channels of part 'shared'"));
   ForeignFile size;
   size.viewWidth = 3;
-  EXPECT_THAT(errorOf(size), HasSubstr("part 'view000' differs in size"));
+  EXPECT_THAT(errorOfField(size), HasSubstr("part 'view000' differs in size"));
 }
 
 TEST(ReflectanceFieldFile, RefusesNumbersThatAreNotFinite) {
   for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     ForeignFile foreign;
     foreign.value = value;
-    EXPECT_THAT(errorOf(foreign), HasSubstr("number is not finite"));
+    EXPECT_THAT(errorOfField(foreign), HasSubstr("number is not finite"));
   }
 }
 
@@ -403,7 +404,7 @@ TEST(ReflectanceFieldFile, RefusesAPlainImage) {
     part.setFrameBuffer(buffer);
     part.writePixels(4);
   }
-  EXPECT_THAT(errorOf(path), HasSubstr("the OpenEXR file has no manifest"));
+  EXPECT_THAT(errorOfField(path), HasSubstr("the OpenEXR file has no manifest"));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::uint64_t checksumOf(const fs::path& path) {
   return valueOf(valueOf(openBtf(path))->checksum());
 }
 
-void writeImage(const fs::path& file, int value) {
+void writeGrey(const fs::path& file, int value) {
   requireDone(writePng(file, test::imageOf(2, 2, [&](int, int, int) { return value; })));
 }
 
@@ -36,27 +36,27 @@ TEST(BtfChecksum, OfAFolderIsThatOfItsImages) {
   const fs::path folder = parent / "cloth";
   const fs::path renamed = parent / "renamed";
   fs::create_directories(folder);
-  writeImage(folder / "tl000_pl000_tv000_pv000.png", 10);
-  writeImage(folder / "tl030_pl000_tv000_pv000.png", 20);
+  writeGrey(folder / "tl000_pl000_tv000_pv000.png", 10);
+  writeGrey(folder / "tl030_pl000_tv000_pv000.png", 20);
   const std::uint64_t checksum = checksumOf(folder);
   std::ofstream(folder / "readme.txt") << "no image";
   fs::rename(folder, renamed);
   EXPECT_EQ(checksumOf(renamed), checksum);
-  writeImage(renamed / "tl030_pl000_tv000_pv000.png", 21);
+  writeGrey(renamed / "tl030_pl000_tv000_pv000.png", 21);
   EXPECT_NE(checksumOf(renamed), checksum);
 }
 
 TEST(BtfChecksum, SeesWhichImageIsOfWhichDirection) {
   const fs::path one = test::testFolder() / "one", two = test::testFolder() / "two";
   for (const fs::path& folder : {one, two}) fs::create_directories(folder);
-  writeImage(one / "tl000_pl000_tv000_pv000.png", 10);
-  writeImage(one / "tl030_pl000_tv000_pv000.png", 20);
-  writeImage(two / "tl000_pl000_tv000_pv000.png", 20);
-  writeImage(two / "tl030_pl000_tv000_pv000.png", 10);
+  writeGrey(one / "tl000_pl000_tv000_pv000.png", 10);
+  writeGrey(one / "tl030_pl000_tv000_pv000.png", 20);
+  writeGrey(two / "tl000_pl000_tv000_pv000.png", 20);
+  writeGrey(two / "tl030_pl000_tv000_pv000.png", 10);
   EXPECT_NE(checksumOf(one), checksumOf(two));
   fs::rename(two / "tl030_pl000_tv000_pv000.png", two / "tl031_pl000_tv000_pv000.png");
-  writeImage(two / "tl000_pl000_tv000_pv000.png", 10);
-  writeImage(two / "tl031_pl000_tv000_pv000.png", 20);
+  writeGrey(two / "tl000_pl000_tv000_pv000.png", 10);
+  writeGrey(two / "tl031_pl000_tv000_pv000.png", 20);
   EXPECT_NE(checksumOf(one), checksumOf(two)) << "a light elsewhere";
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <thread>
 
+#include "LightListFiles.h"
 #include "Samples.h"
 #include "TestImages.h"
 #include "TestSupport.h"
@@ -17,6 +18,7 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
+using test::errorOfOpening;
 using test::requireDone;
 using test::valueOf;
 using testing::HasSubstr;
@@ -67,11 +69,6 @@ std::vector<glm::vec3> texelOf(const SampleRows& rows, int x, int y) {
   std::vector<glm::vec3> texel(rows.pairs());
   rows.linear(y, x, texel);
   return texel;
-}
-
-std::string errorOfOpening(const fs::path& path) {
-  const auto source = openBtf(path);
-  return source ? "opened" : source.error().message();
 }
 
 std::string errorOfReading(const fs::path& path) {

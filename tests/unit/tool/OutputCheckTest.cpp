@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// How a tool ended that reads INPUT and --material NAME=FILE, and writes -o and --report.
-struct Outcome {
+struct OutputOutcome {
   int exitCode = -1;
   bool worked = false;
   std::string err;
 };
 
-Outcome outcomeOf(const std::vector<std::string>& arguments) {
+OutputOutcome outcomeOf(const std::vector<std::string>& arguments) {
   Tool tool({"weft-test", "Does nothing.", "weft-test a -o b", "1.2.3"});
   std::string input, material;
   fs::path output, report;
@@ -29,7 +29,7 @@ Outcome outcomeOf(const std::vector<std::string>& arguments) {
   tool.addOutput("--report", report, "a page");
   std::vector<const char*> argv{"weft-test"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  Outcome outcome;
+  OutputOutcome outcome;
   testing::internal::CaptureStderr();
   outcome.exitCode = tool.run(static_cast<int>(argv.size()), argv.data(), [&outcome]() -> Result<ExitCode> {
     outcome.worked = true;
@@ -40,7 +40,7 @@ Outcome outcomeOf(const std::vector<std::string>& arguments) {
 }
 
 void expectRefused(const std::vector<std::string>& arguments, const std::string& message) {
-  const Outcome outcome = outcomeOf(arguments);
+  const OutputOutcome outcome = outcomeOf(arguments);
   EXPECT_EQ(outcome.exitCode, 2);
   EXPECT_FALSE(outcome.worked);
   EXPECT_THAT(outcome.err, HasSubstr(message));

@@ -22,7 +22,7 @@ constexpr float kHeightStep = 0.5f;
 constexpr int kCorrection = 2;  // texels that a view may differ from what the height predicts
 constexpr int kRounds = 4;
 constexpr Eigen::Index kComponents = 12;
-constexpr std::size_t kTexels = 4000;
+constexpr std::size_t kRegisteredTexels = 4000;
 // What a shift has to gain of the energy that is not captured: of all views, and of one.
 constexpr double kHeightGain = 0.01;
 constexpr double kViewGain = 0.01;
@@ -55,7 +55,7 @@ class Texels {
       for (int column = border; column < window.width - border; ++column) all.emplace_back(column, row);
     // Its numbers are the same everywhere, those of distributions are not.
     std::mt19937 random(20032);
-    const std::size_t count = std::min(kTexels, all.size());
+    const std::size_t count = std::min(kRegisteredTexels, all.size());
     for (std::size_t i = 0; i < count; ++i) {
       std::swap(all[i], all[i + random() % (all.size() - i)]);
       texels_.push_back(all[i]);
@@ -93,7 +93,7 @@ class Texels {
   std::vector<glm::ivec2> texels_;
 };
 
-Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns) {
+Eigen::MatrixXf orthonormalColumns(const Eigen::MatrixXf& columns) {
   const Eigen::HouseholderQR<Eigen::MatrixXf> decomposition(columns);
   return decomposition.householderQ() * Eigen::MatrixXf::Identity(columns.rows(), columns.cols());
 }
@@ -107,7 +107,7 @@ Eigen::MatrixXf strongestWeights(const Eigen::MatrixXf& values) {
       values.cols(), count, [&] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1.0f; });
   Eigen::MatrixXf weights;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    weights = orthonormal(values * columns);
+    weights = orthonormalColumns(values * columns);
     columns = values.transpose() * weights;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((columns.transpose() * columns).cast<double>());
