@@ -2,6 +2,10 @@
 
 add_library(weft_options INTERFACE)
 target_compile_options(weft_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # It takes the files of a unit for headers.
+  target_compile_options(weft_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(WEFT_WERROR)
   target_compile_options(weft_options INTERFACE -Werror)
 endif()
@@ -26,9 +30,11 @@ endif()
 # Programs and tests call what is fast, and are compiled a third sooner where they are not made so.
 set(WEFT_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 
-# What nearly every file includes; CMAKE_DISABLE_PRECOMPILE_HEADERS shows whether it says so.
-set(WEFT_COMMON_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <string> <vector>
-    <fmt/format.h> <glm/vec3.hpp> <tl/expected.hpp>)
+# weft_compile_alone(SOURCES...)
+# Files that no other may share a unit with where files are compiled together (CMAKE_UNITY_BUILD).
+function(weft_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
 
 # Headers that are made here: <build>/include/weft.
 set(WEFT_GENERATED_HEADERS ${PROJECT_BINARY_DIR}/include)
@@ -68,11 +74,11 @@ function(weft_install_library name)
                "set(weft_${name}_links ${links})\n")
 endfunction()
 
-# weft_library(NAME [INTERNAL] [USES libraries...] [PRIVATE libraries...] [PRECOMPILE headers...])
+# weft_library(NAME [INTERNAL] [USES libraries...] [PRIVATE libraries...])
 # The library weft::NAME from src/NAME, or from src where a folder holds one library. INTERNAL: not
-# installed. PRECOMPILE: the heavy headers that many of its files include.
+# installed.
 function(weft_library name)
-  cmake_parse_arguments(ARG "INTERNAL" "" "USES;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "USES;PRIVATE" ${ARGN})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src)
   if(IS_DIRECTORY ${folder}/${name})
     set(folder ${folder}/${name})
@@ -88,7 +94,6 @@ function(weft_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(weft_${name} PUBLIC ${ARG_USES}
                         PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:weft_options>)
-  target_precompile_headers(weft_${name} PRIVATE ${WEFT_COMMON_HEADERS} ${ARG_PRECOMPILE})
   if(NOT ARG_INTERNAL)
     weft_component_header(${name})
     if(WEFT_INSTALL)
@@ -111,7 +116,7 @@ function(weft_program name source)
     target_link_libraries(weft_program_headers PRIVATE weft::tool weft_options)
     target_compile_options(weft_program_headers PRIVATE ${WEFT_LIGHT_OPTIMISATION})
     target_precompile_headers(weft_program_headers PRIVATE
-      ${WEFT_COMMON_HEADERS} <CLI/CLI.hpp> <nlohmann/json.hpp>)
+      <filesystem> <functional> <fmt/format.h> <CLI/CLI.hpp> <nlohmann/json.hpp>)
   endif()
   if(name MATCHES "^weft-")
     target_precompile_headers(${name} REUSE_FROM weft_program_headers)

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Builds Weft and runs its tests; alone enough on a bare Debian 12 as root.
-# scripts/test.sh [PRESET]: release (default), sanitize, or clang (needs install-packages.sh development)
+# scripts/test.sh [PRESET]: release (default), sanitize, thread-sanitize, or clang (needs install-packages.sh development)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -23,11 +23,10 @@
 namespace weft {
 namespace {
 
+using test::kPi;
 using test::square;
 using test::squareCamera;
 using testing::HasSubstr;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Seen as `color` under the light of lit().
 std::shared_ptr<LambertMaterial> matt(glm::vec3 color, float alpha = 1.0f) {
@@ -194,24 +193,6 @@ TEST_F(RenderActionTest, TwoContextsDrawTheSameScene) {
       ASSERT_TRUE(renderer.render(each->context(), *root, squareCamera(), target));
       EXPECT_COLOR(pixel(target.read(each->context()), 4, 4), 1, 0, 1);
     }
-}
-
-TEST_F(RenderActionTest, ThreadsWithContextsOfTheirOwnDrawTheSameScene) {
-  auto root = lit();
-  root->addChild(test::dressed(matt({0, 1, 1})));
-  std::vector<glm::vec4> seen(2);
-  std::vector<std::thread> threads;
-  for (glm::vec4& color : seen)
-    threads.emplace_back([&root, &color] {
-      const auto own = test::valueOf(HeadlessWindow::create(true));
-      RenderAction ownRenderer;
-      const RenderTarget target(8, 8);
-      for (int frame = 0; frame < 3; ++frame)
-        ASSERT_TRUE(ownRenderer.render(own->context(), *root, squareCamera(), target));
-      color = pixel(target.read(own->context()), 4, 4);
-    });
-  for (std::thread& thread : threads) thread.join();
-  for (const glm::vec4& color : seen) EXPECT_COLOR(color, 0, 1, 1);
 }
 
 TEST_F(RenderActionTest, SceneOutlivesEveryContext) {

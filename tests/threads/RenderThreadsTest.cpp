@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "GlTest.h"
+#include "TestSupport.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/scenegraph/Light.h"
 
@@ -55,6 +58,25 @@ TEST_F(ThreadsTest, BuildAndDestroyScenesWhileTheirCoresAreDrawn) {
     std::thread([&other] { other.reset(); }).join();  // drawn here, destroyed elsewhere
   }
   builder.join();
+}
+
+TEST_F(ThreadsTest, WithContextsOfTheirOwnDrawTheSameScene) {
+  Node root(std::make_shared<DirectionalLight>(glm::vec3(test::kPi)));
+  root.addChild(test::dressed(std::make_shared<LambertMaterial>(LambertOptions{glm::vec4(0, 1, 1, 1)})));
+  std::vector<glm::vec3> seen(2);
+  std::vector<std::thread> threads;
+  for (glm::vec3& color : seen)
+    threads.emplace_back([&root, &color] {
+      const auto own = test::valueOf(HeadlessWindow::create(true));
+      RenderAction ownRenderer;
+      const RenderTarget target(8, 8);
+      for (int frame = 0; frame < 3; ++frame)
+        ASSERT_TRUE(ownRenderer.render(own->context(), root, test::squareCamera(), target));
+      const auto texel = target.read(own->context()).texel(4, 4);
+      color = {texel[0], texel[1], texel[2]};
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const glm::vec3& color : seen) EXPECT_LT(glm::distance(color, glm::vec3(0, 1, 1)), 1e-3f);
 }
 
 }  // namespace
