@@ -11,7 +11,7 @@ int incomingCount() {
 vec3 incomingAt(int index, TangentFrame frame, EnvironmentFrame environment, out vec3 direction) {
   if (index >= lightCount) return nodeAt(index - lightCount, environment, direction);
   vec3 toLight;
-  vec3 irradiance = lightAt(index, position, toLight);
+  vec3 irradiance = lightAt(index, position, normal, toLight);
   direction = toFrame(frame, toLight);
   return irradiance / 3.14159265358979;
 }

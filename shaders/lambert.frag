@@ -27,7 +27,7 @@ void main() {
   vec3 irradiance = vec3(0.0);
   for (int i = 0; i < lightCount; ++i) {
     vec3 toLight;
-    vec3 facing = lightAt(i, position, toLight);
+    vec3 facing = lightAt(i, position, normal, toLight);
     irradiance += facing * max(dot(n, toLight), 0.0);
   }
   vec3 radiance = irradiance / 3.14159265358979;

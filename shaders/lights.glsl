@@ -10,7 +10,8 @@
 #define PLACED_LIGHTS 0
 #endif
 
-const int maximumLights = 16;
+const int maximumLights = 256;
+const int maximumShadows = 8;
 const int lightCount = DIRECTIONAL_LIGHTS + PLACED_LIGHTS;
 
 struct Light {
@@ -19,6 +20,9 @@ struct Light {
   vec4 intensity;  // rgb: candela for a position, lux for a direction; w: 1 / range^2
   // dot(cone, (direction from the light, 1)), in 0..1 and squared, is how much of it a spot gives.
   vec4 cone;
+  // x: layer of its shadow map, below 0 for none; y: size of a texel, at distance 1 from what has
+  // a position; zw: of a cube, depth = z - w / distance
+  vec4 shadow;
 };
 
 layout(std140, binding = frameBinding) uniform Frame {
@@ -29,6 +33,7 @@ layout(std140, binding = frameBinding) uniform Frame {
   Light lights[maximumLights];
   vec4 environmentRows[3];    // xyz: from world space to the environment, where there is one
   vec4 environmentIntensity;  // rgb; w: what prefiltered values are multiplied by
+  mat4 shadowMatrices[maximumShadows];  // by layer: to the map, 0..1 in place and depth
 };
 
 // Which parts of what surfaces reflect are shown (RenderOptions).
@@ -48,12 +53,14 @@ vec3 toEye(vec3 point) {
   return normalize(eye.xyz - eye.w * point);
 }
 
+#include "shadows.glsl"
+
 // Irradiance, on a surface that faces the light, at a point; `toLight` becomes the unit direction
-// towards it.
-vec3 lightAt(int index, vec3 point, out vec3 toLight) {
+// towards it. `normal`: of the surface there, of any length; 0 for none.
+vec3 lightAt(int index, vec3 point, vec3 normal, out vec3 toLight) {
   if (index < DIRECTIONAL_LIGHTS) {
     toLight = lights[index].place.xyz;
-    return lights[index].intensity.rgb;
+    return lights[index].intensity.rgb * litShare(index, point, normal, toLight, 1.0);
   }
   Light light = lights[index];
   vec3 offset = light.place.xyz - point;
@@ -62,5 +69,6 @@ vec3 lightAt(int index, vec3 point, out vec3 toLight) {
   float beyond = squared * light.intensity.w;
   float fade = clamp(1.0 - beyond * beyond, 0.0, 1.0);  // KHR_lights_punctual's
   float inCone = clamp(light.cone.w - dot(light.cone.xyz, toLight), 0.0, 1.0);
-  return light.intensity.rgb * (fade * inCone * inCone / squared);
+  float share = litShare(index, point, normal, toLight, sqrt(squared));
+  return light.intensity.rgb * (share * fade * inCone * inCone / squared);
 }

@@ -156,7 +156,7 @@ vec3 lit(vec3 base) {
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < lightCount; ++i) {
     vec3 l;
-    vec3 irradiance = lightAt(i, position, l);
+    vec3 irradiance = lightAt(i, position, normal, l);
     float nl = dot(n, l);
     if (nl > 0.0) radiance += irradiance * nl * reflectance(surface, n, v, l, nl);
   }
@@ -166,10 +166,25 @@ vec3 lit(vec3 base) {
   return radiance;
 }
 
+#ifdef DEPTH_ONLY
+// 1/8 to 7/8, as evenly spread over 2 x 2 pixels as four can be.
+float dotThreshold() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy) & 1;
+  return 0.125 + 0.25 * float(((pixel.x ^ pixel.y) << 1) | pixel.y);
+}
+#endif
+
 void main() {
   vec4 base = baseColor();
 #ifdef ALPHA_MASK
   if (base.a < emissionFactor.w) discard;
+#endif
+#ifdef DEPTH_ONLY
+#ifdef ALPHA_BLEND
+  // Light passes in proportion: filtered, dots are an average.
+  if (base.a <= dotThreshold()) discard;
+#endif
+  return;
 #endif
 #ifdef UNLIT
   color.rgb = base.rgb + emission();

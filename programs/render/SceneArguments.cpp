@@ -120,6 +120,8 @@ void SceneArguments::addTo(CLI::App& options) {
                   "how lobes gather its light: fitted, or paper, as [Meseth 2004] do, for comparison")
       ->check(CLI::IsMember({"fitted", "paper"}))
       ->capture_default_str();
+  options.add_flag("--shadows", shadows,
+                   "lights cast shadows, eight of them at most; an environment does not");
   options.add_option("--time", time, "shows the scene so many seconds after the start of its animation");
   options.add_option("--animation", animation, "which animation; default: the file's first");
 }
@@ -147,6 +149,7 @@ tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
     if (!readMaterial(material, options))
       return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");
   options.environment = environment;
+  options.shadows = shadows;
   options.environmentRotation = environmentRotation;
   options.environmentLobes = environmentLobes == "paper" ? LobeLookup::Paper : LobeLookup::Fitted;
   options.btf = {.textureScale = glm::vec2(uvScale),

@@ -27,6 +27,7 @@ struct SceneArguments {
   std::string environment;
   double environmentRotation = 0.0;
   std::string environmentLobes = "fitted";
+  bool shadows = false;
 
   void addTo(CLI::App& options);
   /// What the words mean, or what is wrong with the command line.

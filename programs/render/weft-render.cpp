@@ -194,6 +194,8 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     setup.turn(glm::two_pi<double>() * static_cast<double>(i) / static_cast<double>(files.size()));
     WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
+    if (const std::size_t more = renderer.statistics().shadowsLeftOut; more > 0 && i == 0)
+      warn(fmt::format("{} more lights than eight are to cast shadows, and cast none", more));
     FloatImage picture = target.read(context, kSupersampling);
     if (const std::string why = emptiness(renderer.statistics(), picture, options); !why.empty())
       warn(files[i].string() + ": " + why);

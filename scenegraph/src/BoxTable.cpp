@@ -141,6 +141,35 @@ void BoxTable::findInside(const Frustum& frustum, std::vector<std::uint32_t>& nu
     if (blocks_[i].occupied != 0) append(insideMask(blocks_[i], frustum), i, numbers);
 }
 
+template <class Visitor>
+void BoxTable::forEach(const Visitor& visit) const {
+  for (const Block& block : blocks_)
+    for (std::uint64_t mask = block.occupied; mask != 0; mask &= mask - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(mask));
+      visit(glm::dvec3(block.center[0][i], block.center[1][i], block.center[2][i]),
+            glm::dvec3(block.extent[0][i], block.extent[1][i], block.extent[2][i]));
+    }
+}
+
+BoxTable::Extent BoxTable::along(const glm::dvec3& axis) const {
+  Extent extent{kInfinity, -kInfinity};
+  forEach([&](const glm::dvec3& center, const glm::dvec3& half) {
+    const double middle = glm::dot(axis, center), reach = glm::dot(glm::abs(axis), half);
+    if (!std::isfinite(middle + reach)) return;
+    extent = {std::min(extent.low, middle - reach), std::max(extent.high, middle + reach)};
+  });
+  return extent;
+}
+
+double BoxTable::reachFrom(const glm::dvec3& place) const {
+  double reach = 0.0;
+  forEach([&](const glm::dvec3& center, const glm::dvec3& half) {
+    const double farthest = glm::length(glm::abs(center - place) + half);
+    if (std::isfinite(farthest)) reach = std::max(reach, farthest);
+  });
+  return reach;
+}
+
 void BoxTable::findMet(const Ray& ray, std::vector<std::uint32_t>& numbers) const {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Block& block = blocks_[i];

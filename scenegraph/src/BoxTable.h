@@ -30,6 +30,14 @@ class BoxTable {
     const auto& center = blocks_[number / kBlock].center;
     return {center[0][number % kBlock], center[1][number % kBlock], center[2][number % kBlock]};
   }
+  struct Extent {
+    double low, high;
+  };
+  /// What all boxes take of an axis, unit; low > high where there are none. Boxes with NaN are left
+  /// out.
+  Extent along(const glm::dvec3& axis) const;
+  /// The distance within which all boxes lie; 0 where there are none.
+  double reachFrom(const glm::dvec3& place) const;
   /// Appends the numbers, rising, of the boxes that are not wholly outside one of the planes. Boxes
   /// with NaN count as inside.
   void findInside(const Frustum& frustum, std::vector<std::uint32_t>& numbers) const;
@@ -49,6 +57,9 @@ class BoxTable {
     bool changed = false;
   };
 
+  /// Calls a function with centre and extent of every box.
+  template <class Visitor>
+  void forEach(const Visitor& visit) const;
   static void mend(Block& block);
   static std::array<Lane, 3> centersFrom(const glm::dvec3& eye, const Block& block);
   static std::uint64_t insideMask(const Block& block, const Frustum& frustum);

@@ -40,6 +40,7 @@ std::unique_lock<std::mutex> FlatScene::look() {
   lastLook_ = now;
   boxes_.update();
   updateMaterials();
+  if (std::exchange(objectsChanged_, false)) objectsChange_ = now;
   return lock;
 }
 
@@ -173,6 +174,7 @@ void FlatScene::place(Entry& entry, const Inherited& above) {
 }
 
 void FlatScene::placeObject(const Entry& entry, const Geometry& geometry, const Inherited& above) {
+  objectsChanged_ = true;
   const glm::dmat4& toWorld = above.toWorld;
   const glm::dmat3 rows = glm::transpose(glm::dmat3(toWorld));
   FlatObject& object = objects_[entry.slot];
@@ -197,6 +199,7 @@ void FlatScene::placeObject(const Entry& entry, const Geometry& geometry, const 
 void FlatScene::become(Entry& entry, Kind kind) {
   if (entry.kind == kind) return;
   if (entry.kind == Kind::Object) {
+    objectsChanged_ = true;
     leaveMesh(objects_[entry.slot].mesh);
     leaveMaterial(objects_[entry.slot].material);
     boxes_.clear(entry.slot);
@@ -223,6 +226,7 @@ void FlatScene::updateMaterials() {
     used.blended = state.at(BlendSlot) != nullptr;
   }
   if (!std::exchange(materialsChanged_, false)) return;
+  objectsChanged_ = true;
   // Numbered in the order of their coming, so that the order of drawing does not depend on
   // addresses.
   std::vector<const Chunk*> programs;

@@ -93,6 +93,9 @@ class FlatScene {
 
   /// How many nodes the latest look() placed anew, since they or something above them changed.
   std::size_t updatedNodes() const { return updatedNodes_; }
+  /// Another number, of no other scene, after every look() that found an object or a material
+  /// changed.
+  std::uint64_t objectsChange() const { return objectsChange_; }
   const Table<FlatObject>& objects() const { return objects_; }
   const BoxTable& boxes() const { return boxes_; }
   const Table<PlacedLight>& lights() const { return lights_; }
@@ -152,6 +155,8 @@ class FlatScene {
   std::unordered_map<const Material*, std::uint32_t> materialNumbers_;
   bool materialsChanged_ = false;
   std::size_t updatedNodes_ = 0;
+  bool objectsChanged_ = false;
+  std::uint64_t objectsChange_ = 0;
   std::uint64_t nextSerial_ = 1;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();
 };

@@ -142,12 +142,12 @@ TEST_F(RenderActionTest, LeavesGLAsItStartsUp) {
 TEST_F(RenderActionTest, MoreLightsThanTheShadersHaveAreAnError) {
   auto root = lit();
   root->addChild(test::dressed(matt({1, 1, 1})));
-  for (int i = 0; i < 15; ++i) root->addChild(std::make_shared<PointLight>(glm::vec3(0.0f)));
+  for (int i = 0; i < 255; ++i) root->addChild(std::make_shared<PointLight>(glm::vec3(0.0f)));
   EXPECT_COLOR(pixel(picture(*root), 4, 4), 1, 1, 1);
   root->addChild(std::make_shared<PointLight>(glm::vec3(0.0f)));
   const auto rendered = renderer.render(context(), *root, squareCamera(), RenderTarget(4, 4));
   ASSERT_FALSE(rendered);
-  EXPECT_THAT(rendered.error().what, HasSubstr("17 lights, at most 16"));
+  EXPECT_THAT(rendered.error().what, HasSubstr("257 lights, at most 256"));
 }
 
 TEST_F(RenderActionTest, GeometryWithoutMaterialIsAnErrorThatNamesIt) {

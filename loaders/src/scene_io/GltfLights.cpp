@@ -17,8 +17,8 @@ float rangeOf(const tinygltf::Light& light) {
 }
 
 /// Null where the cone is none.
-std::shared_ptr<const NodeCore> spotFrom(const tinygltf::Light& light, glm::vec3 intensity,
-                                         const std::string& name, std::vector<std::string>& warnings) {
+std::shared_ptr<Light> spotFrom(const tinygltf::Light& light, glm::vec3 intensity, const std::string& name,
+                                std::vector<std::string>& warnings) {
   constexpr float kWidest = glm::half_pi<float>();
   const auto inner = static_cast<float>(light.spot.innerConeAngle);
   const auto outer = static_cast<float>(light.spot.outerConeAngle);
@@ -34,8 +34,8 @@ std::shared_ptr<const NodeCore> spotFrom(const tinygltf::Light& light, glm::vec3
 
 }  // namespace
 
-Result<std::shared_ptr<const NodeCore>> lightFrom(const GltfFile& file, int index,
-                                                  std::vector<std::string>& warnings) {
+Result<std::shared_ptr<Light>> lightFrom(const GltfFile& file, int index,
+                                         std::vector<std::string>& warnings) {
   const std::string name = "light " + std::to_string(index);
   if (index < 0 || static_cast<std::size_t>(index) >= file.model.lights.size())
     return file.fail(name + ", which a node names, does not exist");
@@ -45,13 +45,13 @@ Result<std::shared_ptr<const NodeCore>> lightFrom(const GltfFile& file, int inde
   const bool valid = (light.color.empty() || light.color.size() == 3) && intensity.x >= 0.0f &&
                      intensity.y >= 0.0f && intensity.z >= 0.0f && std::isfinite(glm::length(intensity));
   if (!valid) return file.fail(name + " has a broken colour or intensity");
-  if (light.type == "directional") return std::make_shared<const DirectionalLight>(intensity);
+  if (light.type == "directional") return std::make_shared<DirectionalLight>(intensity);
   if (light.type == "point") {
     auto point = std::make_shared<PointLight>(intensity);
     point->range = rangeOf(light);
     return point;
   }
-  std::shared_ptr<const NodeCore> spot;
+  std::shared_ptr<Light> spot;
   if (light.type == "spot") spot = spotFrom(light, intensity, name, warnings);
   if (!spot) return file.fail(name + " is of no kind that glTF knows, or has a broken cone");
   return spot;

@@ -286,8 +286,9 @@ class SceneReader {
   }
 
   Result<void> addLight(const tinygltf::Value& extension, Node& placed) {
-    WEFT_TRY(std::shared_ptr<const NodeCore> core,
+    WEFT_TRY(std::shared_ptr<Light> core,
              lightFrom(file_, extension.Get("light").GetNumberAsInt(), scene_.warnings));
+    core->castsShadow = options_.shadows;
     placed.addChild(std::move(core));
     ++scene_.lights;
     return {};

@@ -60,6 +60,7 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   gltf.btf = btf;
   gltf.fields = options.fields ? options.fields : std::make_shared<FieldCache>(options.models);
   gltf.lights = options.lamps.empty();
+  gltf.shadows = options.shadows;
   gltf.time = options.time;
   gltf.animation = options.animation;
   std::shared_ptr<const BTFMaterial> ofAll;
@@ -188,8 +189,10 @@ void SceneSetup::addLamps(const SceneOptions& options) {
   for (const SceneOptions::Lamp& lamp : lamps) {
     const glm::dvec3 offset = lamp.place - center;
     const glm::dvec3 intensity = glm::pi<double>() * glm::dot(offset, offset) * glm::dvec3(lamp.color);
+    const auto light = std::make_shared<PointLight>(intensity);
+    light->castsShadow = options.shadows;
     root_->addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), lamp.place)))
-        ->addChild(std::make_shared<PointLight>(intensity));
+        ->addChild(light);
   }
 }
 

@@ -94,6 +94,10 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
   setChunk(ProgramSlot, std::make_shared<ProgramChunk>(std::move(source)));
   setChunk(uniformSlot(bindings::materialBinding),
            std::make_shared<UniformBlockChunk>(blockBytes(blockOf(options))));
+  coverage_ = state();
+  coverage_.set(BlendSlot, nullptr);
+  coverage_.set(DepthSlot, std::make_shared<DepthChunk>());
+  coverage_.set(RasterSlot, nullptr);  // both sides keep light off
 }
 
 }  // namespace weft

@@ -38,7 +38,8 @@ struct GltfOptions {
   /// Materials to use instead of the file's, by its names for them; "*" for all that are not named.
   /// What they replace is not read.
   std::map<std::string, std::shared_ptr<const Material>> replacements{};
-  bool lights = true;  ///< false leaves the file's lights out, for a program that brings its own
+  bool lights = true;    ///< false leaves the file's lights out, for a program that brings its own
+  bool shadows = false;  ///< whether the file's lights cast shadows
   /// For materials with WEFT_materials_btf; textureScale is multiplied by the extension's `scale`.
   BTFMaterialOptions btf{};
   /// That their fields may be of.

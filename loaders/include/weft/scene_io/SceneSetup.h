@@ -39,6 +39,7 @@ struct SceneOptions {
   std::optional<double> time{};            ///< seconds after the start of an animation
   std::string animation{};                 ///< which one; empty: the first
   std::vector<Lamp> lamps{};               ///< instead of the file's lights, if any
+  bool shadows = false;                    ///< whether lamps and the file's lights cast shadows
   std::string cameraName{};                ///< empty: the file's first, or all of the scene
   std::optional<PointOfView> viewpoint{};  ///< instead of a name
   float aspect = 4.0f / 3.0f;              ///< of the picture: width / height

@@ -86,9 +86,13 @@ class PBRMaterial : public ChunkMaterial {
   explicit PBRMaterial(const PBROptions& options = {});
 
   const PBROptions& options() const { return options_; }
+  const State* coverage() const override {
+    return options_.alphaMode == AlphaMode::Opaque ? nullptr : &coverage_;
+  }
 
  private:
   PBROptions options_;
+  State coverage_;
 };
 
 }  // namespace weft

@@ -8,7 +8,12 @@
 namespace weft {
 
 /// What lights a scene from its node's place. The members of all kinds are read anew in each frame.
-class Light : public NodeCore {};
+class Light : public NodeCore {
+ public:
+  /// Whether opaque things between it and a surface keep its light off, for eight lights of a
+  /// scene; an environment's never is kept off.
+  bool castsShadow = false;
+};
 
 /// Light from its node's origin in all directions: irradiance = intensity / distance^2. glTF:
 /// candela.

@@ -12,6 +12,9 @@ class Material {
 
   /// The chunks by slot. Building it touches no GL.
   virtual const State& state() const = 0;
+  /// What decides where the surface keeps light off, drawn with the program variant DEPTH_ONLY;
+  /// null where it does everywhere.
+  virtual const State* coverage() const { return nullptr; }
 
  protected:
   Material() = default;

@@ -36,6 +36,10 @@ struct RenderStatistics {
   /// Nodes that were looked at again: they changed since the scene was last drawn or picked from,
   /// or something above them did. All of them in the first frame.
   std::size_t updatedNodes = 0;
+  /// Shadow maps, or faces of them, that were drawn anew.
+  std::size_t shadowMapsDrawn = 0;
+  /// Lights that cast no shadow although they are to, because eight others do.
+  std::size_t shadowsLeftOut = 0;
 };
 
 /// Draws a scene. One may serve many scenes, targets and contexts, one render() at a time; several
@@ -48,7 +52,7 @@ class RenderAction {
   RenderAction& operator=(RenderAction&&) noexcept;
 
   /// Draws everything below `root` as the camera sees it, lit by the lights below `root`, and
-  /// leaves GL as it starts up, but for the viewport. Fails on more than 16 lights or one
+  /// leaves GL as it starts up, but for the viewport. Fails on more than 256 lights or one
   /// environment, on a geometry without a material, and on whatever was reported to the context: a
   /// shader that does not compile, an image too large.
   Result<void> render(GLContext& context, const Node& root, const Camera& camera, const RenderTarget& target,
@@ -58,6 +62,10 @@ class RenderAction {
   /// but for what says where to draw. PassiveWindow::render() sees to that. `encoding`: of the
   /// colours written, Linear or Srgb.
   Result<void> renderInPlace(GLContext& context, const Node& root, const Camera& camera, Encoding encoding);
+
+  /// Texels a side of the shadow maps of lights that cast shadows; 2048 unless set. The cubes of
+  /// point lights have half of that.
+  void setShadowMapSize(int texels);
 
   /// Of the latest frame.
   const RenderStatistics& statistics() const { return statistics_; }
@@ -69,6 +77,7 @@ class RenderAction {
   Result<void> renderTo(const Place& place, GLContext& context, const Node& root, const Camera& camera);
 
   std::unique_ptr<Frame> frame_;
+  int shadowMapSize_ = 2048;
   RenderStatistics statistics_;
   std::shared_ptr<const void> owner_ = std::make_shared<char>();
 };

@@ -33,3 +33,7 @@ const int environmentLobesUnit = 16;
 const int environmentMomentsUnit = 17;
 const int environmentGlossyUnit = 18;
 const int microfacetTableUnit = 19;
+
+// Textures of shadows.glsl, beside those.
+const int shadowMapsUnit = 20;
+const int shadowCubesUnit = 21;

@@ -1,0 +1,4 @@
+// Of surfaces that keep off all light: their depth is all that is drawn.
+#version 450 core
+
+void main() {}
