@@ -1,0 +1,107 @@
+// Times of synthesis beside table 1 of [Bosserhoff 2003], and how visible seams and repetition are
+// with each method, of fitted fields: synthesis_bench [--size S] NAME.rf.exr...
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "weft/io/ReflectanceFieldFile.h"
+#include "weft/synthesis/Synthesis.h"
+#include "weft/synthesis/SynthesisQuality.h"
+
+namespace {
+
+using namespace weft;
+
+template <class T>
+T valueOf(Result<T> result) {
+  if (!result) std::fprintf(stderr, "%s\n", result.error().message().c_str()), std::exit(2);
+  return std::move(*result);
+}
+
+struct Row {
+  SynthesisOptions options;
+  const char* paper;  // of table 1
+};
+
+std::vector<Row> rows() {
+  const auto coherent = [](int size, int k, int neighborhood) {
+    return SynthesisOptions{.method = SynthesisMethod::KCoherence,
+                            .width = size,
+                            .height = size,
+                            .k = k,
+                            .neighborhood = neighborhood};
+  };
+  return {{coherent(256, 1, 2), "1.9"},
+          {coherent(256, 3, 2), "2.7"},
+          {coherent(256, 6, 2), "3.7"},
+          {coherent(256, 6, 3), "13.6"},
+          {coherent(512, 6, 2), "13.4"},
+          {{.method = SynthesisMethod::JumpMap, .width = 256, .height = 256}, "-"},
+          {{.width = 256, .height = 256}, "-"},
+          {{.width = 512, .height = 512}, "-"},
+          {{.width = 1024, .height = 1024}, "-"}};
+}
+
+void printTimes(const AppearanceSample& sample) {
+  fmt::print("| size | method | k | neighbourhood | paper, s | synthesis, s | analysis, s |\n");
+  for (const Row& row : rows()) {
+    const Synthesis made = valueOf(synthesize(sample, row.options));
+    const bool isCoherent = row.options.method == SynthesisMethod::KCoherence;
+    fmt::print("| {} | {} | {} | {} | {} | {:.3f} | {:.2f} |\n", row.options.width, name(row.options.method),
+               isCoherent ? std::to_string(row.options.k) : "-",
+               isCoherent ? std::to_string(row.options.neighborhood) : "-", row.paper, made.synthesisSeconds,
+               made.analysisSeconds);
+  }
+}
+
+void printQuality(const std::vector<AppearanceSample>& views, const char* method, const CoordinateMap& map) {
+  fmt::print("| {} |", method);
+  for (const AppearanceSample& sample : views) {
+    const SeamVisibility seams = seamVisibility(sample, map);
+    fmt::print(" {:.2f} {:.2f} {:.2f} |", seams.mean[0], seams.mean[1], seams.mean[2]);
+  }
+  const Repetition repeated = repetition(views.front(), map);
+  fmt::print(" {:.3f} | {:.2f} ({:.2f}) | {:.2f} | {:.2f} |\n", seamVisibility(views.front(), map).jumps,
+             repeated.correlation, repeated.ofSample, repeated.beyondSample(), repeated.copied);
+}
+
+void printQualities(const ReflectanceField& field, int size) {
+  std::vector<AppearanceSample> views;
+  for (const PolarRange range : {PolarRange{0, 90}, PolarRange{0, 15}, PolarRange{60, 90}})
+    views.push_back(valueOf(appearanceOf(field, range)));
+  for (AppearanceSample& sample : views) sample.repeats = views.front().repeats;
+  fmt::print(
+      "| method | seams | from the top | 60 degrees and more | jumps | repetition (sample) | beyond | copied "
+      "|\n");
+  printQuality(views, "tiled", valueOf(tiledMap(size, size, views.front())));
+  for (const SynthesisMethod method :
+       {SynthesisMethod::JumpMap, SynthesisMethod::KCoherence, SynthesisMethod::Patches})
+    printQuality(views, name(method).data(),
+                 valueOf(synthesize(views.front(), {.method = method, .width = size, .height = size})).map);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int size = 256;
+  std::vector<std::string> files;
+  for (int i = 1; i < argc; ++i)
+    if (argv[i] == std::string("--size") && i + 1 < argc)
+      size = std::atoi(argv[++i]);
+    else
+      files.emplace_back(argv[i]);
+  if (files.empty()) return std::fprintf(stderr, "synthesis_bench [--size S] NAME.rf.exr...\n"), 1;
+  for (const std::string& file : files) {
+    const weft::ReflectanceField field = valueOf(weft::readReflectanceField(file));
+    const weft::AppearanceSample sample = valueOf(weft::appearanceOf(field));
+    fmt::print("\n{}: {} x {} texels, margin {}, {}, {} dimensions keep {:.3f} of the variance\n\n", file,
+               field.width(), field.height(), sample.margin, sample.repeats ? "repeats" : "does not repeat",
+               sample.vectors.dimensions, sample.keptVariance);
+    printTimes(sample);
+    fmt::print("\n");
+    printQualities(field, size);
+  }
+}
