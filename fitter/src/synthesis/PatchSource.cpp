@@ -32,7 +32,7 @@ AppearanceVectors sideBySide(const AppearanceVectors& a, const AppearanceVectors
 constexpr int kFine = 24, kCoarse = 16;
 /// How many texels at random are looked at for similar ones, and how far their phases may be off.
 constexpr int kLookedAt = 512;
-constexpr double kSimilarPhase = 0.15;
+constexpr double kSimilarPhase = 0.06;
 constexpr float kCoarseWeight = 0.3f;
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr int kPolishRounds = 3;
 /// How many random places are looked at for candidates.
 constexpr int kTries = 16384;
 /// How far the phase of a patch may be off, in periods.
-constexpr double kPhaseTolerance = 0.12;
+constexpr double kPhaseTolerance = 0.09;
 /// How much a source that was used as often as all on average costs more than an unused one.
 constexpr double kUsageCost = 0.15;
 constexpr int kUsageCells = 8;
