@@ -20,11 +20,12 @@ void putColor(FloatImage& picture, int x, int y, glm::vec3 color) {
 glm::vec3 registeredValue(const ReflectanceField& field, int x, int y, const DirectionWeights& layers,
                           const PictureDirections& d) {
   glm::vec3 sum(0.0f);
-  for (int i = 0; i < 3; ++i)
-    if (layers.weight[i] > 0.0f)
-      sum += layers.weight[i] * field.formula().evaluate(field.shared().texel(x, y),
-                                                         field.model().commonLayer(layers.index[i]), d.light,
-                                                         d.view);
+  for (int i = 0; i < 3; ++i) {
+    if (layers.weight[i] <= 0.0f) continue;
+    const int layer = layers.index[static_cast<std::size_t>(i)];
+    sum += layers.weight[i] * field.formula().evaluate(field.shared().texel(x, y),
+                                                       field.model().commonLayer(layer), d.light, d.view);
+  }
   return sum;
 }
 
