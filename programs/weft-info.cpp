@@ -7,9 +7,11 @@
 #include "MeasurementInput.h"
 #include "ModelArguments.h"
 #include "weft/core/FileKind.h"
+#include "weft/io/CoordinateMapFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/FieldTextures.h"
+#include "weft/reflectance/MapTextures.h"
 #include "weft/tool/Tool.h"
 
 namespace {
@@ -50,11 +52,23 @@ Json describe(const weft::ReflectanceField& field) {
           {"fit", description.fitReport.empty() ? Json() : Json::parse(description.fitReport)}};
 }
 
+Json describe(const weft::CoordinateMap& map) {
+  return {{"kind", "coordinate map"},
+          {"name", map.sampleName()},
+          {"width", map.width()},
+          {"height", map.height()},
+          {"sample", {{"width", map.sampleWidth()}, {"height", map.sampleHeight()}}}};
+}
+
 weft::Result<Json> describeFile(const weft::Tool& tool, const std::filesystem::path& file,
                                 const weft::BtfOptions& options) {
   Json json;
   Json bytes = Json::object();
-  if (file.extension() == ".exr" || weft::fileKind(file) == weft::FileKind::Exr) {
+  if (weft::isCoordinateMap(file)) {
+    WEFT_TRY(const weft::CoordinateMap map, weft::readCoordinateMap(file));
+    json = describe(map);
+    bytes["gpu"] = weft::packCoordinates(map).byteCount();
+  } else if (file.extension() == ".exr" || weft::fileKind(file) == weft::FileKind::Exr) {
     WEFT_TRY(const weft::ReflectanceField field, weft::readReflectanceField(file));
     json = describe(field);
     bytes["gpu"] = weft::gpuBytes(field);
@@ -84,12 +98,13 @@ std::string linesOf(const Json& json, const std::string& prefix) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  weft::Tool tool({"weft-info", "Says what a measured BTF or a fitted reflectance field is.",
+  weft::Tool tool({"weft-info",
+                   "Says what a measured BTF, a fitted reflectance field or a coordinate map is.",
                    "weft-info wool.rf.exr --json -"});
   std::filesystem::path file;
   weft::BtfOptions options;
   tool.options()
-      .add_option("FILE", file, fmt::format("{}, or a .rf.exr", weft::kMeasurementHelp))
+      .add_option("FILE", file, fmt::format("{}, or a .rf.exr or .coords.exr", weft::kMeasurementHelp))
       ->required();
   weft::addMeasurementOptions(tool.options(), options);
   return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {

@@ -15,6 +15,7 @@ flat in float handedness;
 
 layout(location = 0) out vec4 color;
 
+#include "surface.glsl"
 #include "where.glsl"
 #include "layer_lookup.glsl"
 #include "fetch.glsl"
@@ -25,7 +26,7 @@ void main() {
   TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
   EnvironmentFrame environment = environmentFrame(frame);
   vec3 view = toFrame(frame, toEye(position));
-  ivec2 size = fieldSize();
+  ivec2 size = surfaceSize();
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < placeCount; ++i) {
     PlaceShare at = placeAt(i, texcoord * textureScale, size);

@@ -14,7 +14,7 @@ vec2 tangentOf(vec3 view) {
 // changes by more than the place does, the texture would run backwards: half of that is allowed. On
 // a sphere what is left grows steadily up to the silhouette.
 float shareOfShift(Place place, vec2 shift) {
-  vec2 size = vec2(fieldSize());
+  vec2 size = vec2(surfaceSize());
   mat2 places = mat2(place.toRight * size, place.upwards * size);
   mat2 shifts = mat2(dFdx(shift), dFdy(shift));
   float area = abs(determinant(places));
@@ -31,7 +31,7 @@ Place seenAt(Place place, LayerWeights layers, vec3 view) {
     if (layers.weight[k] > 0.0)
       shift += layers.weight[k] * texelFetch(registration, ivec3(layers.index[k], 0, 0), 0).rg;
   shift *= shareOfShift(place, height * tangentOf(view));
-  place.texcoord += vec2(shift.x, -shift.y) / vec2(fieldSize());
+  place.texcoord += vec2(shift.x, -shift.y) / vec2(surfaceSize());
   return place;
 }
 

@@ -4,7 +4,7 @@
 const int placeCount = 1;
 
 struct Place {
-  vec2 texcoord;  // 1 is the whole field, which repeats
+  vec2 texcoord;  // 1 is the whole surface, which repeats
   vec2 toRight;   // from a pixel to the next
   vec2 upwards;
 };

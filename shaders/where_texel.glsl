@@ -12,8 +12,8 @@ struct PlaceShare {
   float share;  // of the result
 };
 
-// `texcoord`: 1 is the whole field, which repeats.
+// `texcoord`: 1 is the whole surface, of `size` texels, which repeats.
 PlaceShare placeAt(int index, vec2 texcoord, ivec2 size) {
   // fract() of a tiny negative number rounds to 1.
-  return PlaceShare(Place(min(ivec2(fract(texcoord) * vec2(size)), size - 1)), 1.0);
+  return PlaceShare(Place(shownTexel(min(ivec2(fract(texcoord) * vec2(size)), size - 1))), 1.0);
 }

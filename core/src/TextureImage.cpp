@@ -6,10 +6,67 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 
 #include "weft/core/Contract.h"
 
 namespace weft {
+namespace {
+
+template <class T>
+void copyTo(std::byte* to, T value) {
+  std::memcpy(to, &value, sizeof(value));
+}
+
+template <class T>
+T copyOf(const std::byte* from) {
+  T value{};
+  std::memcpy(static_cast<void*>(&value), from, sizeof(value));
+  return value;
+}
+
+template <class T>
+T wholeNumber(float value) {
+  return static_cast<T>(std::lround(std::clamp(value, 0.0f, float{std::numeric_limits<T>::max()})));
+}
+
+// A number of a type whose channels stand for themselves.
+void write(std::byte* to, TexelType type, float value) {
+  switch (type) {
+    case TexelType::Half:
+      return copyTo(to, half(value));
+    case TexelType::Float:
+      return copyTo(to, value);
+    case TexelType::SignedByte:
+      return copyTo(to, static_cast<std::int8_t>(std::lround(127.0f * std::clamp(value, -1.0f, 1.0f))));
+    case TexelType::WholeByte:
+      return copyTo(to, wholeNumber<std::uint8_t>(value));
+    case TexelType::WholeWord:
+      return copyTo(to, wholeNumber<std::uint16_t>(value));
+    case TexelType::SharedExponent:
+      return;
+  }
+}
+
+float read(const std::byte* from, TexelType type) {
+  switch (type) {
+    case TexelType::Half:
+      return copyOf<half>(from);
+    case TexelType::Float:
+      return copyOf<float>(from);
+    case TexelType::SignedByte:
+      return std::max(copyOf<std::int8_t>(from) / 127.0f, -1.0f);
+    case TexelType::WholeByte:
+      return copyOf<std::uint8_t>(from);
+    case TexelType::WholeWord:
+      return copyOf<std::uint16_t>(from);
+    case TexelType::SharedExponent:
+      break;
+  }
+  return 0.0f;
+}
+
+}  // namespace
 
 TextureImage::TextureImage(int width, int height, int layers, int channels, TexelType type, int levels)
     : width_(width), height_(height), layers_(layers), channels_(channels), type_(type) {
@@ -23,10 +80,12 @@ std::size_t TextureImage::texelBytes() const {
   const auto channels = static_cast<std::size_t>(channels_);
   switch (type_) {
     case TexelType::Half:
+    case TexelType::WholeWord:
       return 2 * channels;
     case TexelType::Float:
       return 4 * channels;
     case TexelType::SignedByte:
+    case TexelType::WholeByte:
       return channels;
     case TexelType::SharedExponent:
       return 4;
@@ -49,16 +108,7 @@ void TextureImage::set(int x, int y, int layer, int channel, std::span<const flo
     return;
   }
   for (const float value : values) {
-    std::byte* to = bytes.data() + offset(x, y, layer + channel / channels_, channel % channels_, level);
-    if (type_ == TexelType::Float) {
-      std::memcpy(to, &value, sizeof(value));
-    } else if (type_ == TexelType::Half) {
-      const half rounded(value);
-      std::memcpy(to, &rounded, sizeof(rounded));
-    } else {
-      const auto rounded = static_cast<std::int8_t>(std::lround(127.0f * std::clamp(value, -1.0f, 1.0f)));
-      std::memcpy(to, &rounded, sizeof(rounded));
-    }
+    write(bytes.data() + offset(x, y, layer + channel / channels_, channel % channels_, level), type_, value);
     ++channel;
   }
 }
@@ -72,16 +122,7 @@ float TextureImage::at(int x, int y, int layer, int channel, int level) const {
   }
   const std::byte* from =
       levels_[static_cast<std::size_t>(level)].data() + offset(x, y, layer, channel, level);
-  if (type_ == TexelType::Half) {
-    half value;
-    std::memcpy(static_cast<void*>(&value), from, sizeof(value));
-    return value;
-  }
-  if (type_ == TexelType::SignedByte)
-    return std::max(static_cast<float>(static_cast<std::int8_t>(*from)) / 127.0f, -1.0f);
-  float value = 0.0f;
-  std::memcpy(&value, from, sizeof(value));
-  return value;
+  return read(from, type_);
 }
 
 std::uint64_t TextureImage::byteCount() const {

@@ -69,10 +69,11 @@ bool readLamp(const std::string& text, SceneOptions& options) {
   return true;
 }
 
-bool readMaterial(const std::string& text, SceneOptions& options) {
+/// "NAME=FILE"
+bool readFile(const std::string& text, std::map<std::string, std::string>& files) {
   const auto [name, file] = splitAt(text, '=');
   if (file.empty()) return false;
-  options.materialFiles[name] = file;
+  files[name] = file;
   return true;
 }
 
@@ -98,7 +99,14 @@ void SceneArguments::addTo(CLI::App& options) {
                   "are not named; repeatable")
       ->allow_extra_args(false);
   options
-      .add_option("--uv-scale", uvScale, "repetitions of a reflectance field per unit of texture coordinates")
+      .add_option("--map", maps,
+                  "NAME=FILE.coords.exr: a larger surface that the texels of this --material's reflectance "
+                  "field are put together to; repeatable")
+      ->allow_extra_args(false);
+  options
+      .add_option(
+          "--uv-scale", uvScale,
+          "repetitions of a reflectance field, or of its map's surface, per unit of texture coordinates")
       ->capture_default_str();
   options.add_option("--views", views, "measured views to interpolate between: 1 (the nearest) or 3")
       ->check(CLI::IsMember({1, 3}))
@@ -146,8 +154,11 @@ tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
       return tl::unexpected(fmt::format(
           "--light takes x,y,z or x,y,z:r,g,b, numbers up to {}, colours not below 0", kLargestNumber));
   for (const std::string& material : materials)
-    if (!readMaterial(material, options))
+    if (!readFile(material, options.materialFiles))
       return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");
+  for (const std::string& map : maps)
+    if (!readFile(map, options.mapFiles))
+      return tl::unexpected<std::string>("--map takes NAME=FILE.coords.exr, with a NAME of --material");
   options.environment = environment;
   options.shadows = shadows;
   options.environmentRotation = environmentRotation;

@@ -19,6 +19,7 @@ struct SceneArguments {
   std::string camera;
   std::vector<std::string> lights;
   std::vector<std::string> materials;
+  std::vector<std::string> maps;
   float uvScale = 1.0f;
   int views = 3;
   std::string filter = "bilinear";

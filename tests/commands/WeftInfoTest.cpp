@@ -7,6 +7,7 @@
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
+#include "weft/io/CoordinateMapFile.h"
 #include "weft/io/ImageFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfWriter.h"
@@ -130,6 +131,20 @@ TEST(WeftInfo, DescribesAReflectanceField) {
   EXPECT_EQ(info.at("fit").at("epsilon").at("linear").at("luminance").at("avg"), 0.0301);
   EXPECT_EQ(info.at("bytes").at("file"), fs::file_size(file));
   EXPECT_EQ(info.at("bytes").at("gpu"), 5 * 7 * 8 * (1 + 3 * 2));
+}
+
+TEST(WeftInfo, DescribesACoordinateMap) {
+  const fs::path file = test::testFolder() / "a.coords.exr";
+  requireDone(writeCoordinateMap(
+      file, valueOf(CoordinateMap::create(3, 2, 16, 8, std::vector<glm::u16vec2>(6), "WOOL"))));
+  const ProgramRun run = runProgram("weft-info", {file.string(), "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json info = json::parse(run.out);
+  EXPECT_EQ(info["kind"], "coordinate map");
+  EXPECT_EQ(info["name"], "WOOL");
+  EXPECT_EQ(info["width"], 3);
+  EXPECT_EQ(info["sample"], json({{"width", 16}, {"height", 8}}));
+  EXPECT_EQ(info["bytes"]["gpu"], 12);
 }
 
 TEST(WeftInfo, SaysTheEncodingOfTheFile) {

@@ -8,10 +8,12 @@
 #include "ConstantField.h"
 #include "GlTest.h"
 #include "GltfText.h"
+#include "PatchMap.h"
 #include "TestField.h"
 #include "TestSupport.h"
 #include "TextFile.h"
 #include "weft/core/ImageComparison.h"
+#include "weft/io/CoordinateMapFile.h"
 #include "weft/scene_io/BTFMaterialLoader.h"
 #include "weft/scene_io/SceneSetup.h"
 #include "weft/scenegraph/Light.h"
@@ -170,6 +172,24 @@ TEST(FieldCache, ScenesShareWhatTheirOptionsName) {
   const SceneSetup second = valueOf(SceneSetup::create(shape));
   ASSERT_EQ(texturesIn(second.scene()).size(), 1u);
   EXPECT_EQ(texturesIn(second.scene())[0], texturesIn(first)[0]);
+}
+
+TEST(FieldCache, MaterialsOfOneMapShareIt) {
+  const fs::path field = writtenField(), map = field.parent_path() / "a.coords.exr";
+  requireDone(writeCoordinateMap(map, patchMap({8, 6}, {2, 2}, 2)));
+  FieldCache fields;
+  const auto first = valueOf(loadBTFMaterial(field, {}, fields, map));
+  EXPECT_EQ(first->map(), valueOf(loadBTFMaterial(field, {.exposure = 1.0f}, fields, map))->map());
+  EXPECT_EQ(first->surfaceSize(), glm::ivec2(8, 6));
+
+  requireDone(writeCoordinateMap(map, patchMap({8, 6}, {3, 2}, 2)));
+  const auto wrong = loadBTFMaterial(field, {}, fields, map);
+  ASSERT_FALSE(wrong);
+  EXPECT_THAT(wrong.error().message(),
+              HasSubstr("a.coords.exr: the coordinate map is for a sample of sample of 3 x 2 texels"));
+  const auto missing = loadBTFMaterial(field, {}, fields, field.parent_path() / "none.coords.exr");
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message(), HasSubstr("none.coords.exr: no such file"));
 }
 
 }  // namespace

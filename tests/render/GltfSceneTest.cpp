@@ -10,9 +10,11 @@
 #include <random>
 
 #include "GltfScenes.h"
+#include "PatchMap.h"
 #include "TestField.h"
 #include "TestScene.h"
 #include "TestSupport.h"
+#include "weft/io/CoordinateMapFile.h"
 #include "weft/io/ImageFile.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/materials/PBRMaterial.h"
@@ -529,6 +531,25 @@ TEST(BtfExtension, IsAddedAndEverythingElseStays) {
   json = nlohmann::ordered_json::parse(readText(target));
   EXPECT_EQ(json["materials"][0]["extensions"]["WEFT_materials_btf"]["extras"]["kept"], true);
   EXPECT_EQ(json["extensionsUsed"].size(), 3u);
+}
+
+TEST(BtfExtension, NamesACoordinateMap) {
+  const auto file = written(kForeign);
+  const auto folder = file.parent_path(), field = folder / "a.rf.exr", map = folder / "my a.coords.exr";
+  test::requireDone(writeReflectanceField(test::testField(), field));
+  test::requireDone(writeBtfExtension(file, file, {{"base", {field, {1, 1}, 0, map}}}));
+  const GltfScene without = valueOf(loadGltf(file));
+  EXPECT_FALSE(dynamic_cast<const BTFMaterial*>(drawnIn(without).at(0).material.get()));
+  EXPECT_THAT(without.warnings, testing::Contains(HasSubstr("my a.coords.exr: no such file")));
+
+  test::requireDone(writeCoordinateMap(map, test::patchMap({6, 4}, {2, 2}, 2)));
+  const GltfScene with = valueOf(loadGltf(file));
+  const auto* shown = dynamic_cast<const BTFMaterial*>(drawnIn(with).at(0).material.get());
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->surfaceSize(), glm::ivec2(6, 4));
+  EXPECT_THAT(with.files, testing::Contains(map));
+  test::requireDone(writeBtfExtension(file, file, {{"base", {field, {1, 1}}}}));
+  EXPECT_THAT(readText(file), testing::Not(HasSubstr("coords")));
 }
 
 TEST(BtfExtension, LeavesTheBinaryChunkAsItIs) {

@@ -3,9 +3,14 @@
 namespace weft {
 
 Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,
-                                                     const BTFMaterialOptions& options, FieldCache& fields) {
-  WEFT_TRY(auto textures, fields.load(path, options.preparedForEnvironments));
-  return BTFMaterial::create(std::move(textures), options);
+                                                     const BTFMaterialOptions& options, FieldCache& fields,
+                                                     const std::filesystem::path& map) {
+  WEFT_TRY(const auto textures, fields.load(path, options.preparedForEnvironments));
+  WEFT_TRY(auto material, BTFMaterial::create(textures, options));
+  if (map.empty()) return material;
+  WEFT_TRY(auto loaded, fields.loadMap(map, *textures, path));
+  WEFT_TRY_VOID(material->setMap(std::move(loaded)));
+  return material;
 }
 
 Result<std::shared_ptr<BTFMaterial>> loadBTFMaterial(const std::filesystem::path& path,

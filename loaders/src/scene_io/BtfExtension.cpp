@@ -57,7 +57,9 @@ bool extendMaterials(Json& root, const std::string& name, const Json& values) {
   if (!root.contains("materials") || !root["materials"].is_array()) return false;
   for (Json& material : root["materials"]) {
     if (!material.is_object() || !material.contains("name") || material["name"] != name) continue;
-    memberObject(memberObject(material, "extensions"), kName).update(values);
+    Json& extension = memberObject(memberObject(material, "extensions"), kName);
+    extension.erase("map");  // an earlier one
+    extension.update(values);
     found = true;
   }
   return found;
@@ -88,6 +90,19 @@ std::string withJson(const std::vector<std::uint8_t>& file, std::string_view old
   return bytes + "JSON" + json + std::string(rest, end);
 }
 
+/// The extension in a file in this folder.
+Json valuesOf(const BtfExtension& extension, const std::filesystem::path& folder) {
+  const auto uriOf = [&](const std::filesystem::path& path) {
+    std::error_code ignored;
+    return uriFrom(std::filesystem::absolute(path, ignored).lexically_relative(folder));
+  };
+  Json values{{"uri", uriOf(extension.field)},
+              {"scale", {extension.scale.x, extension.scale.y}},
+              {"texCoord", extension.texCoord}};
+  if (!extension.map.empty()) values["map"] = uriOf(extension.map);
+  return values;
+}
+
 }  // namespace
 
 Result<void> writeBtfExtension(const std::filesystem::path& source, const std::filesystem::path& target,
@@ -104,11 +119,7 @@ Result<void> writeBtfExtension(const std::filesystem::path& source, const std::f
   for (const auto& [name, extension] : materials) {
     WEFT_EXPECT(extension.scale.x > 0.0f && extension.scale.y > 0.0f && extension.texCoord >= 0,
                 "a reflectance field has a positive scale and a set of texture coordinates");
-    const auto field = std::filesystem::absolute(extension.field, ignored).lexically_relative(folder);
-    const Json values{{"uri", uriFrom(field)},
-                      {"scale", {extension.scale.x, extension.scale.y}},
-                      {"texCoord", extension.texCoord}};
-    if (!extendMaterials(root, name, values))
+    if (!extendMaterials(root, name, valuesOf(extension, folder)))
       return fail("there is no material \"" + name + "\"", source.string());
   }
   nameAsUsed(root);

@@ -93,9 +93,10 @@ Result<void> parseModel(Json root, GltfFile& file) {
 
 void listFiles(const Json& value, GltfFile& file) {
   if (value.is_object())
-    if (const auto uri = value.find("uri"); uri != value.end() && uri->is_string())
-      if (auto path = resolveUri(file.path, uri->get_ref<const std::string&>()))
-        file.namedFiles.push_back(std::move(*path));
+    for (const char* name : {"uri", "map"})
+      if (const auto uri = value.find(name); uri != value.end() && uri->is_string())
+        if (auto path = resolveUri(file.path, uri->get_ref<const std::string&>()))
+          file.namedFiles.push_back(std::move(*path));
   if (value.is_structured())
     for (const Json& member : value) listFiles(member, file);
 }

@@ -80,7 +80,7 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   BTFMaterialOptions options = options_.btf;
   options.textureScale *= scale;
   options.doubleSided |= material.doubleSided;
-  auto made = loadField(extension.Get("uri").Get<std::string>(), options);
+  auto made = loadField(extension, options);
   if (!made) {
     warnings_.push_back("the reflectance field of " + quoted(material) +
                         " is left out, its own maps take its place: " + made.error().message());
@@ -90,10 +90,12 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   return dress;
 }
 
-Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const std::string& uri,
+Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Value& extension,
                                                               const BTFMaterialOptions& options) const {
-  WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, uri));
-  return loadBTFMaterial(path, options, *fields_);
+  WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, extension.Get("uri").Get<std::string>()));
+  if (!extension.Has("map")) return loadBTFMaterial(path, options, *fields_);
+  WEFT_TRY(const std::filesystem::path map, resolveUri(file_.path, extension.Get("map").Get<std::string>()));
+  return loadBTFMaterial(path, options, *fields_, map);
 }
 
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {

@@ -47,7 +47,7 @@ class GltfMaterials {
   Result<MeshDress> make(int index, const tinygltf::Material& material, Shading shading);
   /// Where the reflectance field is missing or broken, of the material's own maps, with a warning.
   Result<MeshDress> makeBtf(const tinygltf::Material& material, Shading shading);
-  Result<std::shared_ptr<BTFMaterial>> loadField(const std::string& uri,
+  Result<std::shared_ptr<BTFMaterial>> loadField(const tinygltf::Value& extension,
                                                  const BTFMaterialOptions& options) const;
   Result<MeshDress> makePbr(const tinygltf::Material& material, Shading shading);
 

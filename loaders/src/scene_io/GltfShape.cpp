@@ -62,7 +62,7 @@ constexpr const char* kShapes = R"({
       },
       "KHR_materials_unlit": {},
       "WEFT_materials_btf": {
-        "uri!": "string", "scale": ["number"], "texCoord": "index",
+        "uri!": "string", "map": "string", "scale": ["number"], "texCoord": "index",
         "extensions": {"KHR_texture_transform": "transform"}
       }
     }

@@ -24,11 +24,11 @@ namespace {
 constexpr std::string_view kShapePrefix = "shape:";
 const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
 
-// A plane on which the texels of the field are square: its longer side is 1.
+// A plane on which the texels of the surface are square: its longer side is 1.
 Mesh planeFor(const BTFMaterial* material) {
   Mesh plane = makePlane();
   if (!material) return plane;
-  const glm::vec2 texels(material->textures()->size());
+  const glm::vec2 texels(material->surfaceSize());
   const glm::vec3 sides(texels / std::max(texels.x, texels.y), 1.0f);
   for (glm::vec3& position : plane.positions) position *= sides;
   return plane;
@@ -52,6 +52,14 @@ Result<GltfScene> makeShape(const std::string& name, std::shared_ptr<const BTFMa
   return scene;
 }
 
+Result<void> checkMaps(const SceneOptions& options) {
+  for (const auto& [name, map] : options.mapFiles)
+    if (!options.materialFiles.contains(name))
+      return fail(fmt::format("the coordinate map of \"{}\" has no reflectance field", name), map,
+                  "name the material's field, too");
+  return {};
+}
+
 Result<GltfScene> loadScene(const SceneOptions& options) {
   const bool isShape = options.scene.starts_with(kShapePrefix);
   BTFMaterialOptions btf = options.btf;
@@ -64,8 +72,11 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   gltf.time = options.time;
   gltf.animation = options.animation;
   std::shared_ptr<const BTFMaterial> ofAll;
+  WEFT_TRY_VOID(checkMaps(options));
   for (const auto& [name, file] : options.materialFiles) {
-    WEFT_TRY(const std::shared_ptr<BTFMaterial> material, loadBTFMaterial(file, btf, *gltf.fields));
+    const auto map = options.mapFiles.find(name);
+    const std::filesystem::path mapFile = map == options.mapFiles.end() ? std::string() : map->second;
+    WEFT_TRY(const std::shared_ptr<BTFMaterial> material, loadBTFMaterial(file, btf, *gltf.fields, mapFile));
     gltf.replacements[name] = material;
     if (name == "*") ofAll = material;
   }

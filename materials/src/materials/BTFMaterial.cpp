@@ -60,11 +60,25 @@ BTFMaterial::BTFMaterial(std::shared_ptr<const BTFTextures> textures, const BTFM
   setProgram();
 }
 
+Result<void> BTFMaterial::setMap(std::shared_ptr<const BTFMap> map) {
+  if (map && !map->fits(*textures_)) return fail("the coordinate map is of another field");
+  if (map_)
+    for (const auto& [slot, chunk] : map_->chunks()) setChunk(slot, nullptr);
+  map_ = std::move(map);
+  for (const auto& [slot, chunk] : textures_->chunks()) setChunk(slot, chunk);
+  if (map_)
+    for (const auto& [slot, chunk] : map_->chunks()) setChunk(slot, chunk);
+  setProgram();
+  return {};
+}
+
 void BTFMaterial::setProgram() {
   ShaderSource source = textures_->source();
+  source.includeAliases["surface.glsl"] = map_ ? "surface_mapped.glsl" : "surface_sample.glsl";
   const bool isBilinear = options_.filter == TexelFilter::Bilinear;
   if (textures_->filtersParameters()) {
     source.includeAliases["where.glsl"] = "where_filtered.glsl";
+    if (map_) source.includeAliases["fetch.glsl"] = "fetch_mapped.glsl";
     if (!isBilinear) source.defines.emplace_back("NEAREST_TEXEL", "");
   } else {
     source.includeAliases["where.glsl"] = isBilinear ? "where_bilinear.glsl" : "where_texel.glsl";

@@ -40,27 +40,6 @@ TextureImage packShared(const ReflectanceField& field) {
   return packed;
 }
 
-// Of a model whose parameters are filtered: base colours apart, a byte a number.
-TextureImage packBaseColors(const ReflectanceField& field) {
-  TextureImage packed(field.width(), field.height(), 1, 3, TexelType::SharedExponent, levelsOf(field));
-  for (int level = 0; level < levelsOf(field); ++level) {
-    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
-    forEachTexel(from, [&](int x, int y, int) { packed.set(x, y, 0, 0, from.texel(x, y).first(3), level); });
-  }
-  return packed;
-}
-
-TextureImage packFiltered(const ReflectanceField& field) {
-  TextureImage packed(field.width(), field.height(), FieldTextures::sharedTexels(field.model()), 4,
-                      TexelType::SignedByte, levelsOf(field));
-  for (int level = 0; level < levelsOf(field); ++level) {
-    const FloatImage& from = field.levels()[static_cast<std::size_t>(level)].shared;
-    forEachTexel(from,
-                 [&](int x, int y, int) { packed.set(x, y, 0, 0, from.texel(x, y).subspan(3), level); });
-  }
-  return packed;
-}
-
 // `change(numbers)` of each colour channel of each layer.
 template <class Change>
 TextureImage packLayers(const ReflectanceField& field, Change change) {
@@ -141,12 +120,47 @@ std::uint64_t textureBytes(const FloatImage& image, int arrayLayers, std::uint64
 
 }  // namespace
 
+namespace {
+
+// `numbers(texel)` of each of some fields that filter them, behind one another.
+template <class Numbers>
+TextureImage packBehind(std::initializer_list<std::span<const FieldLevel>> fields, int layers, int channels,
+                        TexelType type, Numbers numbers) {
+  const std::span<const FieldLevel> first = *fields.begin();
+  TextureImage packed(first[0].shared.width(), first[0].shared.height(),
+                      layers * static_cast<int>(fields.size()), channels, type,
+                      static_cast<int>(first.size()));
+  for (int level = 0; level < packed.levels(); ++level) {
+    int layer = 0;
+    for (const std::span<const FieldLevel> field : fields) {
+      const FloatImage& from = field[static_cast<std::size_t>(level)].shared;
+      forEachTexel(from,
+                   [&](int x, int y, int) { packed.set(x, y, layer, 0, numbers(from.texel(x, y)), level); });
+      layer += layers;
+    }
+  }
+  return packed;
+}
+
+}  // namespace
+
+TextureImage packBaseColors(std::initializer_list<std::span<const FieldLevel>> fields) {
+  return packBehind(fields, 1, 3, TexelType::SharedExponent,
+                    [](std::span<const float> texel) { return texel.first(3); });
+}
+
+TextureImage packFilteredNumbers(std::initializer_list<std::span<const FieldLevel>> fields) {
+  const int numbers = fields.begin()->front().shared.channelCount() - 3;
+  return packBehind(fields, (numbers + 3) / 4, 4, TexelType::SignedByte,
+                    [](std::span<const float> texel) { return texel.subspan(3); });
+}
+
 FieldTextures FieldTextures::create(const ReflectanceField& field, bool preparedForEnvironments) {
   const bool isFiltered = field.model().filtersParameters();
-  FieldTextures textures{isFiltered ? packFiltered(field) : packShared(field),
+  FieldTextures textures{isFiltered ? packFilteredNumbers({field.levels()}) : packShared(field),
                          packLayers(field, [](std::span<const float> numbers) { return numbers; }),
                          {},
-                         isFiltered ? packBaseColors(field) : TextureImage()};
+                         isFiltered ? packBaseColors({field.levels()}) : TextureImage()};
   for (const auto& [name, table] : field.tables()) textures.tables[name] = packTable(table);
   if (preparedForEnvironments && canBePrepared(field.formula()))
     textures.preparedLayers = packPreparedLayers(field);

@@ -8,6 +8,8 @@
 #include <glm/vector_relational.hpp>
 #include <span>
 
+#include "weft/core/Contract.h"
+
 namespace weft {
 namespace {
 
@@ -90,23 +92,23 @@ int wrapped(int place, int size) {
   return (place % size + size) % size;
 }
 
-}  // namespace
-
-std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place,
-                                     std::vector<float>& filtered) {
+// Of a surface of some texels, `texelAt(x, y)`, which repeats.
+template <class TexelAt>
+std::span<const float> filteredBetween(glm::ivec2 size, const TexelAt& texelAt, glm::vec2 place,
+                                       std::vector<float>& filtered) {
   // Registered measured views are texels, up to rounding.
   constexpr float kRounding = 1e-3f;
   const glm::vec2 nearest = glm::round(place);
   const glm::vec2 low =
       glm::all(glm::lessThan(glm::abs(place - nearest), glm::vec2(kRounding))) ? nearest : glm::floor(place);
   const auto texel = [&](int dx, int dy) {
-    return shared.texel(wrapped(static_cast<int>(low.x) + dx, shared.width()),
-                        wrapped(static_cast<int>(low.y) + dy, shared.height()));
+    return texelAt(wrapped(static_cast<int>(low.x) + dx, size.x),
+                   wrapped(static_cast<int>(low.y) + dy, size.y));
   };
   if (low == nearest && glm::all(glm::lessThan(glm::abs(place - low), glm::vec2(kRounding))))
     return texel(0, 0);
   const glm::vec2 upper = place - low;
-  filtered.assign(static_cast<std::size_t>(shared.channelCount()), 0.0f);
+  filtered.assign(texel(0, 0).size(), 0.0f);
   for (int dy = 0; dy < 2; ++dy)
     for (int dx = 0; dx < 2; ++dx) {
       const float weight = (dx == 1 ? upper.x : 1.0f - upper.x) * (dy == 1 ? upper.y : 1.0f - upper.y);
@@ -114,6 +116,23 @@ std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place,
       for (std::size_t i = 0; i < filtered.size(); ++i) filtered[i] += weight * corner[i];
     }
   return filtered;
+}
+
+}  // namespace
+
+std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place,
+                                     std::vector<float>& filtered) {
+  return filteredBetween(
+      {shared.width(), shared.height()}, [&](int x, int y) { return shared.texel(x, y); }, place, filtered);
+}
+
+std::span<const float> filteredTexel(const FloatImage& shared, const CoordinateMap& map, glm::vec2 place,
+                                     std::vector<float>& filtered) {
+  const auto shownAt = [&](int x, int y) {
+    const glm::ivec2 shown = map.at(x, y);
+    return shared.texel(shown.x, shown.y);
+  };
+  return filteredBetween({map.width(), map.height()}, shownAt, place, filtered);
 }
 
 std::span<const float> ReflectanceField::sharedFor(int x, int y, const DirectionWeights& layers,
@@ -135,13 +154,29 @@ glm::vec3 ReflectanceField::evaluateLayer(int x, int y, int layer, glm::vec3 lig
 glm::vec3 ReflectanceField::evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light,
                                      glm::vec3 view) const {
   std::vector<float> filtered;
-  const std::span<const float> shared = sharedFor(x, y, layers, view, filtered);
+  return weighted(sharedFor(x, y, layers, view, filtered), x, y, layers, light, view);
+}
+
+glm::vec3 ReflectanceField::weighted(std::span<const float> shared, int x, int y,
+                                     const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const {
   glm::vec3 sum(0.0f);
   for (int k = 0; k < 3; ++k)
     if (layers.weight[k] > 0.0f)
       sum += layers.weight[k] *
              formula_.evaluate(shared, layerAt(x, y, layers.index[static_cast<std::size_t>(k)]), light, view);
   return sum;
+}
+
+glm::vec3 ReflectanceField::evaluate(const CoordinateMap& map, int x, int y, const DirectionWeights& layers,
+                                     glm::vec3 light, glm::vec3 view) const {
+  WEFT_EXPECT(map.sampleWidth() == width() && map.sampleHeight() == height(), "the map is of this field");
+  const glm::ivec2 shown = map.at(x, y);
+  if (model().registration().empty()) return evaluate(shown.x, shown.y, layers, light, view);
+  const glm::vec2 shift = formula_.shift(layers, view);
+  std::vector<float> filtered;
+  const std::span<const float> numbers =
+      filteredTexel(shared(), map, glm::vec2(x, y) + glm::vec2(shift.x, -shift.y), filtered);
+  return weighted(numbers, shown.x, shown.y, layers, light, view);
 }
 
 glm::vec3 ReflectanceField::evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const {

@@ -43,9 +43,10 @@ using TextureSource = std::function<Result<std::shared_ptr<const TextureImage>>(
 ///
 /// Row 0 of the image is v = 0, as in glTF. 1 to 4 channels become R, RG, RGB, RGBA of exactly the
 /// image's precision: 16F for half, 32F for float, 8 for bytes, 16 for words; a TextureImage may be
-/// 8_SNORM or RGB9_E5, too. sRGB has no format of 1 or 2 channels in GL, so grey becomes three
-/// equal channels. A TextureImage brings its own levels; TextureFilter::Mipmapped makes those of
-/// other images. An empty image or none unbinds what was there before.
+/// 8_SNORM or RGB9_E5, too, and 8UI or 16UI with TextureFilter::Nearest. sRGB has no format of 1 or
+/// 2 channels in GL, so grey becomes three equal channels. A TextureImage brings its own levels;
+/// TextureFilter::Mipmapped makes those of other images. An empty image or none unbinds what was
+/// there before.
 class TextureChunk : public Chunk {
  public:
   /// TwoDimensional, Rectangle: an image of one layer.

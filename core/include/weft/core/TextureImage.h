@@ -15,6 +15,8 @@ enum class TexelType {
   Float,
   SignedByte,      ///< -1..1 in steps of 1/127
   SharedExponent,  ///< three numbers from 0 in 32 bits, GL's RGB9_E5
+  WholeByte,       ///< 0, 1, ... 255, which shaders read as whole numbers, too
+  WholeWord,       ///< 0, 1, ... 65535, likewise
 };
 constexpr TexelType texelType(Precision precision) {
   return precision == Precision::Half ? TexelType::Half : TexelType::Float;

@@ -3,7 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "weft/reflectance/BoxAverages.h"
 
 namespace weft {
 namespace {
@@ -15,12 +16,11 @@ struct Sums {
   std::size_t numbers = 0;
   std::vector<float> values;
 
-  float* of(int x, int y) {
+  const float* of(int x, int y) const {
     return values.data() +
            (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
                numbers;
   }
-  const float* of(int x, int y) const { return const_cast<Sums*>(this)->of(x, y); }
 };
 
 Sums sumsOf(const FloatImage& shared) {
@@ -36,43 +36,11 @@ Sums sumsOf(const FloatImage& shared) {
   return sums;
 }
 
-/// Which finer texels a coarser one covers along an axis, and how much of each; the shares add up
-/// to 1.
-struct Cover {
-  int first = 0;
-  std::vector<float> shares;
-};
-
-Cover coverOf(int texel, int coarse, int fine) {
-  const double from = static_cast<double>(texel) * fine / coarse;
-  const double to = static_cast<double>(texel + 1) * fine / coarse;
-  Cover cover{static_cast<int>(from), {}};
-  for (int i = cover.first; i < to && i < fine; ++i) {
-    const double covered = std::min(to, i + 1.0) - std::max(from, static_cast<double>(i));
-    if (covered <= 1e-9) continue;
-    cover.shares.push_back(static_cast<float>(covered / (to - from)));
-  }
-  return cover;
-}
-
 Sums halved(const Sums& fine) {
-  Sums coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.numbers, {}};
-  coarse.values.resize(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height) *
-                       fine.numbers);
-  tbb::parallel_for(0, coarse.height, [&](int y) {
-    const Cover rows = coverOf(y, coarse.height, fine.height);
-    for (int x = 0; x < coarse.width; ++x) {
-      const Cover columns = coverOf(x, coarse.width, fine.width);
-      float* sum = coarse.of(x, y);
-      for (std::size_t j = 0; j < rows.shares.size(); ++j)
-        for (std::size_t i = 0; i < columns.shares.size(); ++i) {
-          const float* from = fine.of(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
-          for (std::size_t n = 0; n < fine.numbers; ++n)
-            sum[n] += rows.shares[j] * columns.shares[i] * from[n];
-        }
-    }
-  });
-  return coarse;
+  const int width = std::max(fine.width / 2, 1), height = std::max(fine.height / 2, 1);
+  return {width, height, fine.numbers,
+          boxAverages({fine.width, fine.height}, {width, height}, fine.numbers,
+                      [&](int x, int y) { return fine.of(x, y); })};
 }
 
 double product(const float* a, std::span<const double> gram, const float* b, std::size_t components) {

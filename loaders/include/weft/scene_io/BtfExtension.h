@@ -14,6 +14,7 @@ struct BtfExtension {
   std::filesystem::path field;  ///< the .rf.exr; written relative to the glTF file
   glm::vec2 scale{1.0f};        ///< repetitions per unit of texture coordinates, positive
   int texCoord = 0;             ///< the set of texture coordinates
+  std::filesystem::path map{};  ///< a .coords.exr, likewise; empty: the sample repeats
 };
 
 /// Copies a glTF file, .gltf or .glb, and gives materials, by name, a reflectance field. Everything

@@ -32,6 +32,8 @@ struct SceneOptions {
   std::string scene;  ///< a glTF file, or shape:plane, shape:sphere, shape:cloth
   /// a `.rf.exr` a material; "*" for all not named
   std::map<std::string, std::string> materialFiles{};
+  /// a `.coords.exr` for some of those, by the same names
+  std::map<std::string, std::string> mapFiles{};
   BTFMaterialOptions btf{};
   ModelRegistry models = ModelRegistry::builtin();  ///< that reflectance fields may be of
   /// Where those come from, instead of models; null: each is read once for this scene.

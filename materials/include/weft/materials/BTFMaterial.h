@@ -6,6 +6,7 @@
 
 #include "weft/chunks/UniformBlockChunk.h"
 #include "weft/core/Result.h"
+#include "weft/materials/BTFMap.h"
 #include "weft/materials/BTFTextures.h"
 #include "weft/materials/ChunkMaterial.h"
 
@@ -19,8 +20,8 @@ enum class TexelFilter {
 };
 
 struct BTFMaterialOptions {
-  /// Repetitions of the material per unit of texture coordinates; positive, because a mirrored
-  /// image would need mirrored directions.
+  /// Repetitions of the material, or of the map's surface, per unit of texture coordinates;
+  /// positive, because a mirrored image would need mirrored directions.
   glm::vec2 textureScale{1.0f};
   glm::vec3 tint{1.0f};   ///< linear; what is shown is multiplied by it
   float exposure = 0.0f;  ///< stops: what is shown is multiplied by 2 to their power
@@ -56,6 +57,14 @@ class BTFMaterial : public ChunkMaterial {
   /// and changes nothing then.
   Result<void> setOptions(const BTFMaterialOptions& options);
 
+  /// What the sample's texels are put together to; null, as in the beginning: the sample repeats.
+  const std::shared_ptr<const BTFMap>& map() const { return map_; }
+  /// Not while something is drawn. Fails on a map that is not for these textures, and changes
+  /// nothing then.
+  Result<void> setMap(std::shared_ptr<const BTFMap> map);
+  /// Texels that texture coordinates run over once: the map's, or the sample's; across and down.
+  glm::ivec2 surfaceSize() const { return map_ ? map_->size() : textures_->size(); }
+
  private:
   BTFMaterial(std::shared_ptr<const BTFTextures> textures, const BTFMaterialOptions& options);
   void setProgram();
@@ -63,6 +72,7 @@ class BTFMaterial : public ChunkMaterial {
   std::shared_ptr<const BTFTextures> textures_;
   BTFMaterialOptions options_;
   std::shared_ptr<UniformBlockChunk> block_;
+  std::shared_ptr<const BTFMap> map_;
 };
 
 }  // namespace weft

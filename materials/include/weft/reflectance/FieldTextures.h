@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 
 #include "weft/core/TextureImage.h"
@@ -40,6 +42,11 @@ struct FieldTextures {
   /// Whether preparedForEnvironments has an effect.
   static bool canBePrepared(const FieldFormula& formula);
 };
+
+/// `shared` and `baseColors` of a model whose parameters the hardware filters, from the levels of
+/// one field or of several of one size, whose layers lie behind one another.
+TextureImage packFilteredNumbers(std::initializer_list<std::span<const FieldLevel>> fields);
+TextureImage packBaseColors(std::initializer_list<std::span<const FieldLevel>> fields);
 
 /// Bytes of the textures that create() makes of a field, not prepared for environments.
 std::uint64_t gpuBytes(const ReflectanceField& field);

@@ -8,6 +8,7 @@
 
 #include "weft/core/FloatImage.h"
 #include "weft/core/Result.h"
+#include "weft/reflectance/CoordinateMap.h"
 #include "weft/reflectance/FieldFormula.h"
 #include "weft/reflectance/ReflectanceModel.h"
 
@@ -63,6 +64,10 @@ class ReflectanceField {
   glm::vec3 evaluate(int x, int y, const DirectionWeights& layers, glm::vec3 light, glm::vec3 view) const;
   /// The same between the layers around the directions.
   glm::vec3 evaluate(int x, int y, glm::vec3 light, glm::vec3 view) const;
+  /// The same of a texel of the surface that a map makes of this field, whose sample's size is the
+  /// field's: the surface is moved by relief first, then looked up in the map.
+  glm::vec3 evaluate(const CoordinateMap& map, int x, int y, const DirectionWeights& layers, glm::vec3 light,
+                     glm::vec3 view) const;
   /// What one texel shows of an environment, radiance: the CPU reference of shaders/btf.frag.
   glm::vec3 underEnvironment(int x, int y, glm::vec3 view, const EnvironmentIntegrals& light) const;
   /// The shared numbers of what is seen at a texel of level 0 from a view.
@@ -74,6 +79,8 @@ class ReflectanceField {
   explicit ReflectanceField(FieldFormula formula) : formula_(std::move(formula)) {}
   std::span<const float> sharedFor(int x, int y, const DirectionWeights& layers, glm::vec3 view,
                                    std::vector<float>& filtered) const;
+  glm::vec3 weighted(std::span<const float> shared, int x, int y, const DirectionWeights& layers,
+                     glm::vec3 light, glm::vec3 view) const;
   std::span<const float> layerAt(int x, int y, int layer) const;
 
   FieldFormula formula_;
@@ -86,6 +93,10 @@ class ReflectanceField {
 /// between the four around it; the image repeats. `filtered` is where they are left unless the
 /// place is a texel's.
 std::span<const float> filteredTexel(const FloatImage& shared, glm::vec2 place, std::vector<float>& filtered);
+
+/// The same of the surface that a map makes of the image.
+std::span<const float> filteredTexel(const FloatImage& shared, const CoordinateMap& map, glm::vec2 place,
+                                     std::vector<float>& filtered);
 
 /// The side of level `level` where that of level 0 is `side`.
 int sideOfLevel(int side, int level);

@@ -13,6 +13,7 @@ const int trianglesUnit = 3;
 const int quadratureUnit = 4;
 const int preparedParametersUnit = 5;
 const int baseColorsUnit = 6;  // where parameters are filtered
+const int coordinatesUnit = 7;  // of a coordinate map
 const int firstTableUnit = 8;  // of a field's tables, as many as mostTables
 const int mostTables = 8;
 
