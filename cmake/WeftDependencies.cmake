@@ -39,6 +39,11 @@ endif()
 if(WEFT_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
+if(WEFT_BUILD_PROGRAMS)
+  # Without these two there is no weft-view.
+  find_package(glfw3 QUIET)
+  pkg_check_modules(imgui QUIET IMPORTED_TARGET GLOBAL imgui)
+endif()
 if(WEFT_BUILD_SAMPLES OR WEFT_BUILD_BENCHMARKS)
   # Without these two, the samples that embed Weft in their windows are not built.
   find_package(glfw3 QUIET)

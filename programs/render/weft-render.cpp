@@ -5,16 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <thread>
 
+#include "PictureArguments.h"
 #include "SceneArguments.h"
-#include "weft/core/ToneMapping.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/ImageFile.h"
 #include "weft/scene_io/SceneSetup.h"
@@ -29,66 +27,25 @@ namespace {
 using namespace weft;
 
 constexpr int kSupersampling = 2;
-constexpr int kLargestSide = 8192;
 constexpr unsigned kMostMesaThreads = 16;  // that draw, beside one or two with other work
-constexpr double kLargestExposure = 60.0;
 // Linear; 0x28 of 255 in sRGB.
 const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
 
 struct Arguments {
   SceneArguments scene;
   std::filesystem::path output;
-  std::vector<std::string> size{"800x600"};
-  double exposure = 0.0;
-  std::string toneMap;
+  PictureArguments picture;
   std::string show = "all";
   int turntable = 0;
   int frames = 0;
 };
 
-struct Size {
-  int width = 0, height = 0;
-};
-
-/// The number that `text` is, and nothing else.
-std::optional<int> parsed(const std::string& text) {
-  int number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-std::optional<int> sideFrom(const std::string& text) {
-  const std::optional<int> side = parsed(text);
-  return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
-}
-
-/// "--size WxH", "--size W H" or "--size N", a square, which may have taken the SCENE behind it
-/// along; none for anything else.
-std::optional<Size> readSize(std::vector<std::string> words, std::string& scene) {
-  if (const std::size_t cross = words[0].find('x'); cross != std::string::npos) {
-    words.insert(words.begin() + 1, words[0].substr(cross + 1));
-    words[0].resize(cross);
-  } else if (words.size() == 1 || (words.size() == 2 && scene.empty() && !sideFrom(words[1]))) {
-    words.insert(words.begin(), words[0]);
-  }
-  if (words.size() == 3 && scene.empty()) scene = words[2];
-  if (words.size() < 2 || (words.size() == 3 && scene != words[2])) return std::nullopt;
-  const auto width = sideFrom(words[0]), height = sideFrom(words[1]);
-  if (!width || !height) return std::nullopt;
-  return Size{*width, *height};
-}
-
 /// The scene, or what is wrong with the command line.
-tl::expected<SceneOptions, std::string> readOptions(Arguments& arguments, Size& size) {
-  const std::optional<Size> read = readSize(arguments.size, arguments.scene.scene);
-  if (!read)
-    return tl::unexpected(
-        fmt::format("--size takes WxH, W H or N for a square, 1 to {} pixels", kLargestSide));
+tl::expected<SceneOptions, std::string> readOptions(Arguments& arguments, PictureArguments::Size& size) {
+  const auto read = arguments.picture.parse(arguments.scene.scene);
+  if (!read) return tl::unexpected(read.error());
   if (arguments.output.extension() != ".png" && arguments.output.extension() != ".exr")
     return tl::unexpected<std::string>("--output must end with .png or .exr");
-  if (!(std::abs(arguments.exposure) <= kLargestExposure))
-    return tl::unexpected(fmt::format("--exposure takes -{0} to {0} stops", kLargestExposure));
   auto options = arguments.scene.parse();
   if (!options) return options;
   size = *read;
@@ -141,10 +98,6 @@ ReflectedPart partOf(const std::string& show) {
   return show == "specular" ? ReflectedPart::Specular : ReflectedPart::All;
 }
 
-ToneCurve curveOf(const std::string& name, bool softUnasked) {
-  return name == "soft" || (name.empty() && softUnasked) ? ToneCurve::Soft : ToneCurve::None;
-}
-
 /// Whether a picture shows its background alone.
 bool isEmpty(const FloatImage& picture, const glm::vec4& background) {
   const auto values = picture.values();
@@ -164,7 +117,7 @@ std::string emptiness(const RenderStatistics& statistics, const FloatImage& pict
 }
 
 Result<ExitCode> render(const Tool& tool, Arguments arguments) {
-  Size size;
+  PictureArguments::Size size;
   const auto sceneOptions = readOptions(arguments, size);
   if (!sceneOptions) return tool.badUsage(sceneOptions.error());
   WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
@@ -199,7 +152,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
     FloatImage picture = target.read(context, kSupersampling);
     if (const std::string why = emptiness(renderer.statistics(), picture, options); !why.empty())
       warn(files[i].string() + ": " + why);
-    expose(picture, static_cast<float>(arguments.exposure), curveOf(arguments.toneMap, png && lit));
+    expose(picture, static_cast<float>(arguments.picture.exposure), arguments.picture.toneCurve(png && lit));
     WEFT_TRY_VOID(writePicture(files[i], picture));
   }
 
@@ -238,17 +191,7 @@ int main(int argc, char** argv) {
   arguments.scene.addTo(options);
   tool.addOutput("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
       ->required();
-  options.add_option("--size", arguments.size, "WxH, W H or N for a square, in pixels")
-      ->expected(1, 3)
-      ->capture_default_str();
-  options
-      .add_option("--exposure", arguments.exposure, "stops: the picture is multiplied by 2 to their power")
-      ->capture_default_str();
-  options
-      .add_option("--tone-map", arguments.toneMap,
-                  "none, or soft: what is brighter than 0.8 is compressed below 1; default: soft for a .png "
-                  "with --env, else none")
-      ->check(CLI::IsMember({"none", "soft"}));
+  arguments.picture.addTo(options);
   options
       .add_option("--show", arguments.show,
                   "what surfaces reflect: all, or its diffuse or specular part alone (a polynomial counts as "

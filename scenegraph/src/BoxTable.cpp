@@ -152,7 +152,7 @@ void BoxTable::forEach(const Visitor& visit) const {
 }
 
 BoxTable::Extent BoxTable::along(const glm::dvec3& axis) const {
-  Extent extent{kInfinity, -kInfinity};
+  Extent extent{kInfiniteFloat, -kInfiniteFloat};
   forEach([&](const glm::dvec3& center, const glm::dvec3& half) {
     const double middle = glm::dot(axis, center), reach = glm::dot(glm::abs(axis), half);
     if (!std::isfinite(middle + reach)) return;

@@ -141,6 +141,7 @@ struct FieldFit::Data {
        ReflectanceFieldDescription description_, std::string fingerprint);
 
   bool inLastPass() const { return pass == gathered.size(); }
+  bool isStopped() const { return options.stopped && options.stopped(); }
   PassRows& passRows() { return inLastPass() ? static_cast<PassRows&>(rows) : *gathered[pass]; }
   Result<void> beginPass();
   int halo() const;
@@ -220,6 +221,7 @@ Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSa
     const auto startOfFitting = Clock::now();
     doBlock(samples[i % 2], blocks[i], saver, counter);
     secondsFitting += secondsSince(startOfFitting);
+    if (isStopped()) return fail("the fit was stopped");
   }
   return {};
 }
@@ -227,6 +229,7 @@ Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSa
 void FieldFit::Data::doBlock(const SampleWindow& samples, RowRange block, RowSaver& saver,
                              RowCounter& counter) {
   tbb::parallel_for(0, block.count, [&](int i) {
+    if (isStopped()) return;
     const SampledRow row{samples, source.description(), pairs, crop, block.first + i, registration};
     inLastPass() ? fitRow(row) : gatherRow(row);
     passRows().setDone({row.y, 1});

@@ -102,6 +102,7 @@ class SceneReader {
     WEFT_TRY_VOID(placeNodes());
     for (const int index : order_) WEFT_TRY_VOID(addContents(index));
     scene_.materials = materials_.names();
+    scene_.fields = materials_.fields();
     scene_.files = file_.namedFiles;
     scene_.bounds = boundsOf(*scene_.root);
     if (scene_.bounds.empty()) return file_.fail("the scene draws nothing");

@@ -80,7 +80,7 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   BTFMaterialOptions options = options_.btf;
   options.textureScale *= scale;
   options.doubleSided |= material.doubleSided;
-  auto made = loadField(extension, options);
+  auto made = loadField(material, extension, options);
   if (!made) {
     warnings_.push_back("the reflectance field of " + quoted(material) +
                         " is left out, its own maps take its place: " + made.error().message());
@@ -90,12 +90,17 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   return dress;
 }
 
-Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Value& extension,
-                                                              const BTFMaterialOptions& options) const {
+Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Material& material,
+                                                              const tinygltf::Value& extension,
+                                                              const BTFMaterialOptions& options) {
   WEFT_TRY(const std::filesystem::path path, resolveUri(file_.path, extension.Get("uri").Get<std::string>()));
-  if (!extension.Has("map")) return loadBTFMaterial(path, options, *fields_);
-  WEFT_TRY(const std::filesystem::path map, resolveUri(file_.path, extension.Get("map").Get<std::string>()));
-  return loadBTFMaterial(path, options, *fields_, map);
+  std::filesystem::path map;
+  if (extension.Has("map")) {
+    WEFT_TRY(map, resolveUri(file_.path, extension.Get("map").Get<std::string>()));
+  }
+  WEFT_TRY(const std::shared_ptr<BTFMaterial> made, loadBTFMaterial(path, options, *fields_, map));
+  fieldMaterials_.push_back({material.name, path, made});
+  return made;
 }
 
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {

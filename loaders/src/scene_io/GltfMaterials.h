@@ -42,13 +42,16 @@ class GltfMaterials {
   Result<MeshDress> get(int index, Shading shading = Shading::Full);
   /// Of all that get() was asked for.
   std::vector<std::string> names() const;
+  /// Of these, the ones with a reflectance field.
+  const std::vector<GltfScene::FieldMaterial>& fields() const { return fieldMaterials_; }
 
  private:
   Result<MeshDress> make(int index, const tinygltf::Material& material, Shading shading);
   /// Where the reflectance field is missing or broken, of the material's own maps, with a warning.
   Result<MeshDress> makeBtf(const tinygltf::Material& material, Shading shading);
-  Result<std::shared_ptr<BTFMaterial>> loadField(const tinygltf::Value& extension,
-                                                 const BTFMaterialOptions& options) const;
+  Result<std::shared_ptr<BTFMaterial>> loadField(const tinygltf::Material& material,
+                                                 const tinygltf::Value& extension,
+                                                 const BTFMaterialOptions& options);
   Result<MeshDress> makePbr(const tinygltf::Material& material, Shading shading);
 
   const GltfFile& file_;
@@ -57,6 +60,7 @@ class GltfMaterials {
   GltfTextures textures_;
   std::shared_ptr<FieldCache> fields_;
   std::map<std::pair<int, Shading>, MeshDress> made_;
+  std::vector<GltfScene::FieldMaterial> fieldMaterials_;
 };
 
 }  // namespace weft

@@ -60,7 +60,37 @@ Result<void> checkMaps(const SceneOptions& options) {
   return {};
 }
 
-Result<GltfScene> loadScene(const SceneOptions& options) {
+// The materials that the options put on the scene.
+Result<std::vector<GltfScene::FieldMaterial>> replacementsOf(const SceneOptions& options,
+                                                             const BTFMaterialOptions& btf,
+                                                             FieldCache& fields) {
+  std::vector<GltfScene::FieldMaterial> replacements;
+  for (const auto& [name, file] : options.materialFiles) {
+    const auto map = options.mapFiles.find(name);
+    const std::filesystem::path mapFile = map == options.mapFiles.end() ? std::string() : map->second;
+    WEFT_TRY(const std::shared_ptr<BTFMaterial> material, loadBTFMaterial(file, btf, fields, mapFile));
+    replacements.push_back({name, file, material});
+  }
+  for (const auto& [name, material] : options.materials) replacements.push_back({name, {}, material});
+  return replacements;
+}
+
+Result<void> checkNames(const std::vector<GltfScene::FieldMaterial>& replacements, const GltfScene& scene,
+                        const std::string& where) {
+  for (const auto& [name, file, material] : replacements)
+    if (name != "*" && std::ranges::find(scene.materials, name) == scene.materials.end())
+      return fail("there is no material \"" + name + "\"", where,
+                  scene.materials.empty() ? "use *=" + file.string()
+                                          : fmt::format("its materials are {}", scene.materials));
+  return {};
+}
+
+struct LoadedScene {
+  GltfScene scene;
+  std::vector<GltfScene::FieldMaterial> fields;
+};
+
+Result<LoadedScene> loadScene(const SceneOptions& options) {
   const bool isShape = options.scene.starts_with(kShapePrefix);
   BTFMaterialOptions btf = options.btf;
   btf.doubleSided = isShape;  // the inside of the cloth shows
@@ -71,24 +101,18 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   gltf.shadows = options.shadows;
   gltf.time = options.time;
   gltf.animation = options.animation;
-  std::shared_ptr<const BTFMaterial> ofAll;
   WEFT_TRY_VOID(checkMaps(options));
-  for (const auto& [name, file] : options.materialFiles) {
-    const auto map = options.mapFiles.find(name);
-    const std::filesystem::path mapFile = map == options.mapFiles.end() ? std::string() : map->second;
-    WEFT_TRY(const std::shared_ptr<BTFMaterial> material, loadBTFMaterial(file, btf, *gltf.fields, mapFile));
+  WEFT_TRY(std::vector<GltfScene::FieldMaterial> fields, replacementsOf(options, btf, *gltf.fields));
+  std::shared_ptr<const BTFMaterial> ofAll;
+  for (const auto& [name, file, material] : fields) {
     gltf.replacements[name] = material;
     if (name == "*") ofAll = material;
   }
   WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), ofAll)
                                     : loadGltf(options.scene, gltf));
-  for (const auto& [name, file] : options.materialFiles)
-    if (name != "*" &&
-        std::find(scene.materials.begin(), scene.materials.end(), name) == scene.materials.end())
-      return fail(
-          "there is no material \"" + name + "\"", options.scene,
-          scene.materials.empty() ? "use *=" + file : fmt::format("its materials are {}", scene.materials));
-  return scene;
+  WEFT_TRY_VOID(checkNames(fields, scene, options.scene));
+  fields.insert(fields.end(), scene.fields.begin(), scene.fields.end());
+  return LoadedScene{std::move(scene), std::move(fields)};
 }
 
 // The radius of a scene; a single point may have any.
@@ -153,16 +177,19 @@ int mostEnvironmentLights(const Node& root) {
 
 SceneSetup::SceneSetup(GltfScene scene) : scene_(std::move(scene)) {
   root_->addChild(turn_)->addChild(scene_.root);
+  root_->addChild(lampNode_);
 }
 
 Result<SceneSetup> SceneSetup::create(const SceneOptions& options) {
-  WEFT_TRY(GltfScene scene, loadScene(options));
-  SceneSetup setup(std::move(scene));
+  WEFT_TRY(LoadedScene loaded, loadScene(options));
+  SceneSetup setup(std::move(loaded.scene));
+  setup.fields_ = std::move(loaded.fields);
+  setup.shadows_ = options.shadows;
   for (const std::string& warning : setup.scene_.warnings)
     setup.warnings_.push_back(fmt::format("{}: {}", options.scene, warning));
   WEFT_TRY_VOID(setup.chooseCamera(options));
   if (!options.environment.empty()) WEFT_TRY_VOID(setup.addEnvironment(options));
-  setup.addLamps(options);
+  setup.chooseLamps(options);
   return setup;
 }
 
@@ -187,22 +214,28 @@ Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
               fmt::format("its cameras are {}", names));
 }
 
-// Lamps as bright as it takes for a white surface at the scene's centre that faces them to show
-// their colour.
-void SceneSetup::addLamps(const SceneOptions& options) {
-  const glm::dvec3 center = scene_.bounds.center();
+void SceneSetup::chooseLamps(const SceneOptions& options) {
   std::vector<SceneOptions::Lamp> lamps = options.lamps;
   if (lamps.empty() && options.environment.empty() && scene_.lights == 0) {
     const glm::dmat3 toWorld = glm::transpose(glm::dmat3(camera_.view));
     lamps.push_back(
-        {center + 4.0 * sizeOf(scene_.bounds) * (toWorld * glm::dvec3(-0.7, 0.8, 1.0)), glm::vec3(1.0f)});
+        {scene_.bounds.center() + 4.0 * sizeOf(scene_.bounds) * (toWorld * glm::dvec3(-0.7, 0.8, 1.0)),
+         glm::vec3(1.0f)});
   }
-  for (const SceneOptions::Lamp& lamp : lamps) {
-    const glm::dvec3 offset = lamp.place - center;
+  setLamps(std::move(lamps));
+}
+
+// As bright as it takes for a white surface at the scene's centre that faces them to show their
+// colour.
+void SceneSetup::setLamps(std::vector<SceneOptions::Lamp> lamps) {
+  lamps_ = std::move(lamps);
+  while (!lampNode_->children().empty()) lampNode_->removeChild(*lampNode_->children().back());
+  for (const SceneOptions::Lamp& lamp : lamps_) {
+    const glm::dvec3 offset = lamp.place - scene_.bounds.center();
     const glm::dvec3 intensity = glm::pi<double>() * glm::dot(offset, offset) * glm::dvec3(lamp.color);
     const auto light = std::make_shared<PointLight>(intensity);
-    light->castsShadow = options.shadows;
-    root_->addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), lamp.place)))
+    light->castsShadow = shadows_;
+    lampNode_->addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), lamp.place)))
         ->addChild(light);
   }
 }
@@ -216,12 +249,17 @@ Result<void> SceneSetup::addEnvironment(const SceneOptions& options) {
         fmt::format("a reflectance field has no formula for light of an environment: every "
                     "pixel adds up {} measured lights, which is slow",
                     lights));
-  // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
-  const float angle = glm::radians(-static_cast<float>(std::fmod(options.environmentRotation, 360.0)));
   const PrefilteredEnvironment prefiltered = prefilter(environment, cacheFolder(), warnings_);
-  root_->addChild(std::make_shared<Transform>(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))))
+  root_->addChild(environmentTurn_)
       ->addChild(makeEnvironmentLight(environment, prefiltered, options.environmentLobes));
+  turnEnvironment(options.environmentRotation);
   return {};
+}
+
+void SceneSetup::turnEnvironment(double degrees) {
+  // Clockwise as seen on a map: the picture's middle comes to lie to the right of where it was.
+  const float angle = glm::radians(-static_cast<float>(std::fmod(degrees, 360.0)));
+  environmentTurn_->setMatrix(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)));
 }
 
 void SceneSetup::turn(double radians) {

@@ -51,6 +51,8 @@ struct FitOptions {
   /// Hears of what goes wrong without ending the fit, as rows that cannot be saved; from any
   /// thread.
   std::function<void(const std::string&)> warn;
+  /// Asked before each row, from any thread: true ends the fit, which then fails.
+  std::function<bool()> stopped;
 
   Result<void> validate() const;
 };

@@ -68,11 +68,18 @@ struct GltfScene {
     std::string name;
     double seconds;  ///< from 0 to the last key
   };
+  /// A material with WEFT_materials_btf, to be shown otherwise: BTFMaterial::setOptions().
+  struct FieldMaterial {
+    std::string name;  ///< of the material
+    std::filesystem::path file;
+    std::shared_ptr<BTFMaterial> material;
+  };
 
   std::shared_ptr<Node> root;
   std::vector<NamedCamera> cameras;  ///< in the order of their nodes
   /// names of all materials that something is drawn with; "" has none
   std::vector<std::string> materials;
+  std::vector<FieldMaterial> fields;  ///< that something is drawn with
   std::vector<Animation> animations;  ///< all that the file has
   std::vector<GltfData> data;         ///< unknown extensions and extras, in the order of the file
   int lights = 0;

@@ -34,6 +34,8 @@ struct SceneOptions {
   std::map<std::string, std::string> materialFiles{};
   /// a `.coords.exr` for some of those, by the same names
   std::map<std::string, std::string> mapFiles{};
+  /// The same of materials that are there already, as of a field that was just fitted.
+  std::map<std::string, std::shared_ptr<BTFMaterial>> materials{};
   BTFMaterialOptions btf{};
   ModelRegistry models = ModelRegistry::builtin();  ///< that reflectance fields may be of
   /// Where those come from, instead of models; null: each is read once for this scene.
@@ -64,7 +66,15 @@ class SceneSetup {
   const Node& root() const { return *root_; }
   const Camera& camera() const { return camera_; }
   const GltfScene& scene() const { return scene_; }
+  /// All reflectance fields of the scene, the options' included: those by their names there.
+  const std::vector<GltfScene::FieldMaterial>& fields() const { return fields_; }
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
+  /// Those that the options named, or the one above left of the camera; not the file's lights.
+  const std::vector<SceneOptions::Lamp>& lamps() const { return lamps_; }
+  /// Shows other lamps instead of these.
+  void setLamps(std::vector<SceneOptions::Lamp> lamps);
+  /// Turns the environment, if there is one, as SceneOptions::environmentRotation says.
+  void turnEnvironment(double degrees);
   /// Turns the scene around its vertical axis, counter-clockwise seen from above; lights and camera
   /// stay.
   void turn(double radians);
@@ -72,14 +82,19 @@ class SceneSetup {
  private:
   explicit SceneSetup(GltfScene scene);
   Result<void> chooseCamera(const SceneOptions& options);
-  void addLamps(const SceneOptions& options);
+  void chooseLamps(const SceneOptions& options);
   Result<void> addEnvironment(const SceneOptions& options);
 
   GltfScene scene_;
   /// of what stays while the scene turns, too
   std::shared_ptr<Node> root_ = std::make_shared<Node>();
   std::shared_ptr<Transform> turn_ = std::make_shared<Transform>();
+  std::shared_ptr<Node> lampNode_ = std::make_shared<Node>();
+  std::shared_ptr<Transform> environmentTurn_ = std::make_shared<Transform>();
   Camera camera_;
+  std::vector<GltfScene::FieldMaterial> fields_;
+  std::vector<SceneOptions::Lamp> lamps_;
+  bool shadows_ = false;  ///< of lamps
   std::vector<std::string> warnings_;
 };
 
