@@ -14,6 +14,8 @@ packages=(
   libeigen3-dev libceres-dev libhwy-dev libtbb-dev libembree-dev
   libopenmpi-dev openmpi-bin # optional: fits of several processes
   libgtest-dev libgmock-dev libbenchmark-dev
+  libimgui-dev # optional, with libglfw3-dev: weft-view
+  libxtst-dev # its tests
   libglfw3-dev libopenscenegraph-dev xvfb # optional, 120 packages: the samples that embed Weft, and their tests
   assimp-testmodels # optional: glTF files, valid and broken, for the loader's tests
   openexr # exrheader, which must understand our files

@@ -104,6 +104,7 @@ void Viewer::pressKey(int key, int modifiers) {
 
 void Viewer::pressButton(int button, int modifiers) {
   using Drag = ViewerState::Drag;
+  state_.clearMessages();  // they were seen
   if (button == GLFW_MOUSE_BUTTON_RIGHT || window_.isKeyDown(GLFW_KEY_L))
     drag_ = Drag::Light;
   else if (button == GLFW_MOUSE_BUTTON_MIDDLE || (modifiers & GLFW_MOD_SHIFT))
@@ -135,8 +136,7 @@ void Viewer::step() {
 Result<Viewer::Timing> Viewer::timeDrag(int frames, Clock::time_point start) {
   while (!state_.view()) {
     step();
-    if (!state_.view() && loader_.doing().empty())
-      return fail(state_.messages().empty() ? "there is nothing to show" : state_.messages().back());
+    if (!state_.view() && !state_.messages().empty()) return fail(state_.messages().back());
   }
   Timing timing{.firstFrame = millisecondsSince(start)};
   for (int i = 0; i < frames; ++i) {
