@@ -22,7 +22,8 @@ vec3 toneMapped(vec3 radiance) {
 
 vec3 encoded(vec3 linear) {
   linear = clamp(linear, 0, 1);
-  return mix(1.055 * pow(linear, vec3(1 / 2.4)) - 0.055, 12.92 * linear, lessThan(linear, vec3(0.0031308)));
+  vec3 curved = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
+  return mix(curved, 12.92 * linear, lessThan(linear, vec3(0.0031308)));
 }
 
 void main() {

@@ -14,7 +14,7 @@ constexpr int kLargestSide = 8192;
 constexpr double kLargestExposure = 60.0;
 
 /// The number that `text` is, and nothing else.
-std::optional<int> parsed(const std::string& text) {
+std::optional<int> wholeNumber(const std::string& text) {
   int number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<int> parsed(const std::string& text) {
 }
 
 std::optional<int> sideFrom(const std::string& text) {
-  const std::optional<int> side = parsed(text);
+  const std::optional<int> side = wholeNumber(text);
   return side && *side >= 1 && *side <= kLargestSide ? side : std::nullopt;
 }
 

@@ -10,9 +10,9 @@ namespace weft {
 namespace {
 
 constexpr double kSteepest = 1.5533;  // 89 degrees: up stays up
-constexpr double kTurnOfDrag = 3.2;   // radians for a drag over the height of the picture
+constexpr double kOrbitOfDrag = 3.2;  // radians for a drag over the height of the picture
 constexpr double kNearest = 1e-3;     // of the scene's radius
-constexpr double kFarthest = 1e3;     // likewise
+constexpr double kFarthestEye = 1e3;  // likewise
 constexpr double kNearPlane = 1e-2;   // of the distance to what is looked at
 constexpr float kSmallestFieldOfView = 0.02f;
 
@@ -32,7 +32,7 @@ void OrbitCamera::lookAs(const Camera& camera, const Bounds& scene) {
   const glm::dvec3 eye(place[3]), back = glm::normalize(glm::dvec3(place[2]));
   const glm::dvec3 center = scene.empty() ? glm::dvec3(0.0) : scene.center();
   radius_ = radiusOf(scene);
-  distance_ = std::clamp(glm::dot(eye - center, back), kNearest * radius_, kFarthest * radius_);
+  distance_ = std::clamp(glm::dot(eye - center, back), kNearest * radius_, kFarthestEye * radius_);
   target_ = eye - distance_ * back;
   elevation_ = std::clamp(std::asin(std::clamp(back.y, -1.0, 1.0)), -kSteepest, kSteepest);
   azimuth_ = std::atan2(back.x, back.z);
@@ -51,8 +51,8 @@ void OrbitCamera::frame(const Node& scene, float aspect, glm::dvec3 from) {
 }
 
 void OrbitCamera::orbit(glm::dvec2 drag) {
-  azimuth_ = std::remainder(azimuth_ - kTurnOfDrag * drag.x, glm::two_pi<double>());
-  elevation_ = std::clamp(elevation_ + kTurnOfDrag * drag.y, -kSteepest, kSteepest);
+  azimuth_ = std::remainder(azimuth_ - kOrbitOfDrag * drag.x, glm::two_pi<double>());
+  elevation_ = std::clamp(elevation_ + kOrbitOfDrag * drag.y, -kSteepest, kSteepest);
 }
 
 void OrbitCamera::pan(glm::dvec2 drag) {
@@ -63,7 +63,7 @@ void OrbitCamera::pan(glm::dvec2 drag) {
 }
 
 void OrbitCamera::zoom(double steps) {
-  distance_ = std::clamp(distance_ * std::pow(0.9, steps), kNearest * radius_, kFarthest * radius_);
+  distance_ = std::clamp(distance_ * std::pow(0.9, steps), kNearest * radius_, kFarthestEye * radius_);
 }
 
 Camera OrbitCamera::camera(const Bounds& scene) const {

@@ -13,7 +13,8 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t kReadWhole = std::size_t{3} << 29;  // bytes of a measurement that is kept in memory
+/// Bytes of a measurement that is kept in memory.
+constexpr std::size_t kReadWhole = std::size_t{3} << 29;
 constexpr std::size_t kFitMemory = std::size_t{1} << 30;
 constexpr std::size_t kLongFit = std::size_t{64} << 20;  // bytes beyond which a part is shown first
 constexpr int kPartSide = 32;                            // texels of that part, of several views

@@ -160,7 +160,8 @@ void ViewerState::setShape(const std::string& shape) {
   ViewRequest next = request_;
   next.shape = shape;
   const bool isScene = next.file.empty() || next.kind() == ViewedKind::Scene;
-  if (isScene && !next.file.empty() && !next.file.string().starts_with("shape:")) return;  // it has its own
+  // a scene has its own
+  if (isScene && !next.file.empty() && !next.file.string().starts_with("shape:")) return;
   if (isScene) next.file = "shape:" + shape;
   requested_ = std::move(next);
 }

@@ -94,9 +94,8 @@ int main(int argc, char** argv) {
   CLI::App& options = tool.options();
   arguments.scene.addTo(options);
   options.get_option("SCENE")->description(
-      "a .gltf or .glb file, a .rf.exr, a measurement, shape:plane, shape:sphere or shape:cloth; others can "
-      "be "
-      "dropped on the window");
+      "a .gltf or .glb file, a .rf.exr, a measurement, shape:plane, shape:sphere or shape:cloth; "
+      "others can be dropped on the window");
   arguments.picture.addTo(options);
   options
       .add_option("--shape", arguments.shape,

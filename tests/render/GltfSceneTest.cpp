@@ -534,7 +534,7 @@ TEST(BtfExtension, IsAddedAndEverythingElseStays) {
 }
 
 TEST(BtfExtension, NamesACoordinateMap) {
-  const auto file = written(kForeign);
+  const auto file = writtenGltf(kForeign);
   const auto folder = file.parent_path(), field = folder / "a.rf.exr", map = folder / "my a.coords.exr";
   test::requireDone(writeReflectanceField(test::testField(), field));
   test::requireDone(writeBtfExtension(file, file, {{"base", {field, {1, 1}, 0, map}}}));
