@@ -118,16 +118,6 @@ void ViewerDriver::drag(unsigned button, int x, int y, int right, int down) {
   XSync(display_, False);
 }
 
-void ViewerDriver::scroll(int steps, int x, int y) {
-  XTestFakeMotionEvent(display_, -1, x, y, CurrentTime);
-  const unsigned button = steps > 0 ? 4 : 5;
-  for (int i = 0; i < std::abs(steps); ++i) {
-    XTestFakeButtonEvent(display_, button, True, CurrentTime);
-    XTestFakeButtonEvent(display_, button, False, CurrentTime);
-  }
-  XSync(display_, False);
-}
-
 void ViewerDriver::sendDnd(const char* kind, const std::vector<long>& data) {
   XEvent event{};
   event.xclient.type = ClientMessage;

@@ -31,7 +31,6 @@ class ViewerDriver {
   void press(const std::string& key, const std::string& held = {});
   /// Moves the mouse to a place of the window, then by so much with a button held down.
   void drag(unsigned button, int x, int y, int right, int down);
-  void scroll(int steps, int x, int y);
   void drop(const std::filesystem::path& file);
   /// What S leaves.
   Image screenshot();
