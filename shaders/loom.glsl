@@ -70,9 +70,12 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
 
 // What four channels of the maps reflect of red, green and blue light.
 mat3x4 reflectedOf(int channels, int firstTerm, int view, EnvironmentFrame frame) {
+  // Mesa's software renderer takes longer for texelFetch().
+  vec2 size = vec2(textureSize(lightPolynomials, 0).xy);
   mat3x4 sum = mat3x4(0.0);
   for (int term = firstTerm; term < 6; ++term) {
-    vec4 factors = texelFetch(lightPolynomials, ivec3(term, view, channels), 0);
+    vec2 place = (vec2(term, view) + 0.5) / size;
+    vec4 factors = textureLod(lightPolynomials, vec3(place, channels), 0.0);
     vec3 moment = frame.moments[term];
     sum += mat3x4(moment.r * factors, moment.g * factors, moment.b * factors);
   }

@@ -12,17 +12,22 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
   LayerWeights layers = findLayers(view);
   place = seenAt(place, layers, view);
   Texel texel = fetchTexel(place);
+  // Lights outside, views inside: loops that compilers unroll.
   vec3 radiance = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     if (layers.weight[k] == 0.0) continue;
-    Layer layer = fetchLayer(place, layers.index[k]);
-    vec3 value = environmentValue(texel, layer, place, layers.index[k], seenFrom, environment);
-    for (int i = 0; i < incomingCount(); ++i) {
-      vec3 l;
-      vec3 light = incomingAt(i, frame, environment, l);
-      if (l.z > 0.0) value += light * valueWithCosine(texel, layer, l, seenFrom);
-    }
-    radiance += layers.weight[k] * value;
+    int index = layers.index[k];
+    radiance += layers.weight[k] * environmentValue(texel, fetchLayer(place, index), place, index,
+                                                    seenFrom, environment);
+  }
+  for (int i = 0; i < incomingCount(); ++i) {
+    vec3 l;
+    vec3 light = incomingAt(i, frame, environment, l);
+    if (l.z <= 0.0) continue;
+    for (int k = 0; k < 3; ++k)
+      if (layers.weight[k] > 0.0)
+        radiance += layers.weight[k] * light *
+                    valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
   }
   return radiance;
 }
