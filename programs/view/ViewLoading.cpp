@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/fitter/DefaultModel.h"
+#include "weft/io/CoordinateMapFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
+#include "weft/materials/BTFMap.h"
 #include "weft/reflectance/FieldTextures.h"
 
 namespace weft {
@@ -182,15 +184,23 @@ Result<LoadedView> ViewLoading::showAlone(std::shared_ptr<const ReflectanceField
 
 Result<LoadedView::Field> ViewLoading::wrap(std::string name, std::shared_ptr<const ReflectanceField> field,
                                             const BTFMaterialOptions& options) const {
-  WEFT_TRY(auto textures, BTFTextures::create(*field, options.preparedForEnvironments,
-                                              [field]() -> Result<ReflectanceField> { return *field; }));
+  const BTFTextures::FieldSource again = [field]() -> Result<ReflectanceField> { return *field; };
+  WEFT_TRY(auto textures, BTFTextures::create(*field, options.preparedForEnvironments, again));
   WEFT_TRY(auto material, BTFMaterial::create(std::move(textures), options));
+  if (const auto file = request_.scene.mapFiles.find(name); file != request_.scene.mapFiles.end()) {
+    WEFT_TRY(const CoordinateMap map, readCoordinateMap(file->second));
+    WEFT_TRY(auto prepared, BTFMap::create(map, *material->textures(), again));
+    WEFT_TRY_VOID(material->setMap(std::move(prepared)));
+  }
   return LoadedView::Field{std::move(name),      std::move(material), field,
                            options.textureScale, errorOf(*field),     gpuBytes(*field)};
 }
 
 Result<LoadedView> ViewLoading::assemble(SceneOptions options, std::vector<LoadedView::Field> fields) {
-  for (const LoadedView::Field& field : fields) options.materials[field.name] = field.material;
+  for (const LoadedView::Field& field : fields) {
+    options.materials[field.name] = field.material;
+    options.mapFiles.erase(field.name);  // it has it
+  }
   WEFT_TRY(SceneSetup setup, SceneSetup::create(options));
   LoadedView view{request_, std::move(setup), std::move(fields)};
   view.warnings = view.setup.warnings();

@@ -35,6 +35,7 @@ void ViewerState::open(const std::filesystem::path& file) {
   next.model.clear();
   // What was asked for of the scene before does not suit another.
   next.scene.materialFiles.clear();
+  next.scene.mapFiles.clear();
   next.scene.cameraName.clear();
   next.scene.viewpoint.reset();
   next.scene.lamps.clear();

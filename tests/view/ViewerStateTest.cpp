@@ -11,10 +11,12 @@
 #include "ConstantField.h"
 #include "FileWatch.h"
 #include "LightDome.h"
+#include "PatchMap.h"
 #include "RecentFiles.h"
 #include "ResolutionControl.h"
 #include "SceneLoader.h"
 #include "TestSupport.h"
+#include "weft/io/CoordinateMapFile.h"
 
 namespace weft {
 namespace {
@@ -152,6 +154,25 @@ TEST(ViewerState, AFieldAloneIsShownWithItsLamp) {
   state.removeLamp();
   state.removeLamp();
   EXPECT_TRUE(state.view()->setup.lamps().empty());
+}
+
+TEST(ViewerState, AMaterialIsShownThroughItsMap) {
+  const fs::path file = test::testFolder() / "white.rf.exr", map = test::testFolder() / "white.coords.exr";
+  test::writeConstantField(file, glm::vec3(1));
+  const ViewerState unmapped = shown(requestFor(file));
+  const ReflectanceField& field = *unmapped.view()->fields.at(0).field;
+  test::requireDone(writeCoordinateMap(map, test::patchMap({6, 4}, {field.width(), field.height()}, 2)));
+  ViewRequest request = requestFor("shape:sphere");
+  request.scene.materialFiles["*"] = file.string();
+  for (const bool alone : {false, true}) {
+    if (alone) request = requestFor(file);
+    request.scene.mapFiles["*"] = map.string();
+    ViewerState state = shown(request);
+    ASSERT_TRUE(state.view()) << state.messages().back();
+    EXPECT_EQ(state.view()->fields.at(0).material->surfaceSize(), glm::ivec2(6, 4));
+    state.open("shape:cloth");
+    EXPECT_TRUE(state.takeRequest()->scene.mapFiles.empty());
+  }
 }
 
 TEST(ViewerState, WhatPeopleChangedStaysWhenAFileIsReadAgain) {
