@@ -72,7 +72,8 @@ TEST_F(ThreadsTest, WithContextsOfTheirOwnDrawTheSameScene) {
       const RenderTarget target(8, 8);
       for (int frame = 0; frame < 3; ++frame)
         ASSERT_TRUE(ownRenderer.render(own->context(), root, test::squareCamera(), target));
-      const auto texel = target.read(own->context()).texel(4, 4);
+      const FloatImage picture = target.read(own->context());
+      const auto texel = picture.texel(4, 4);
       color = {texel[0], texel[1], texel[2]};
     });
   for (std::thread& thread : threads) thread.join();
