@@ -22,7 +22,7 @@
 namespace weft::test {
 namespace {
 
-constexpr int kSize = 192;
+constexpr int kPixelsAcross = 192;
 constexpr float kPi = glm::pi<float>();
 
 Mesh moved(Mesh mesh, const glm::mat4& to) {
@@ -92,7 +92,7 @@ double shareThatDiffers(const FloatImage& drawn, const FloatImage& expected) {
 class Shadows : public GlTest {
  protected:
   FloatImage draw(const Node& scene, const Camera& camera) {
-    const RenderTarget target(kSize, kSize, Precision::Float);
+    const RenderTarget target(kPixelsAcross, kPixelsAcross, Precision::Float);
     const auto done = renderer.render(context(), scene, camera, target);
     EXPECT_TRUE(done) << (done ? "" : done.error().what);
     return target.read(context());
@@ -137,7 +137,7 @@ TEST_F(Shadows, FallWhereRaysFindThem) {
   shot.eye = {2.5f, 3.5f, 5.0f};
   shot.target = {0.2f, 0.4f, 0.0f};
   shot.verticalFieldOfView = kCamera.verticalFieldOfView;
-  shot.width = shot.height = kSize;
+  shot.width = shot.height = kPixelsAcross;
   shot.samples = 1;
   ReferenceMaterial material;
   material.value = [](int, int, glm::vec3 light, glm::vec3) { return glm::vec3(light.z); };
@@ -181,8 +181,8 @@ TEST_F(Shadows, SurfacesDoNotShadeThemselves) {
       light->castsShadow = true;
       const FloatImage drawn = draw(scene, Camera::lookAt({0, -1, 3}, {0, 0, 0}));
       float most = 0.0f;
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
+      for (int y = 0; y < kPixelsAcross; ++y)
+        for (int x = 0; x < kPixelsAcross; ++x)
           // A ball's own shadow begins where the light grazes it.
           if (!sphere || expected.at(x, y, 0) > std::sin(glm::radians(10.0f)))
             most = std::max(most, std::abs(drawn.at(x, y, 0) - expected.at(x, y, 0)));
@@ -239,8 +239,8 @@ TEST_F(Shadows, AlphaLetsLightThrough) {
     light->castsShadow = true;
     scene.addChild(light);
     const FloatImage drawn = draw(scene, squareCamera());
-    EXPECT_NEAR(drawn.at(kSize / 4, kSize / 2, 0), 0.0f, 0.02f);
-    EXPECT_NEAR(drawn.at(3 * kSize / 4, kSize / 2, 0), each.through, 0.02f);
+    EXPECT_NEAR(drawn.at(kPixelsAcross / 4, kPixelsAcross / 2, 0), 0.0f, 0.02f);
+    EXPECT_NEAR(drawn.at(3 * kPixelsAcross / 4, kPixelsAcross / 2, 0), each.through, 0.02f);
   }
 }
 
@@ -263,11 +263,11 @@ TEST_F(Shadows, AHostKeepsWhereItDraws) {
   auto light = std::make_shared<DirectionalLight>(glm::vec3(kPi));
   light->castsShadow = true;
   scene.addChild(light);
-  const RenderTarget target(kSize, kSize, Precision::Float);
+  const RenderTarget target(kPixelsAcross, kPixelsAcross, Precision::Float);
   ASSERT_TRUE(target.prepare(context()));
   target.bindAndClear(context(), glm::vec4(0.0f));
   glEnable(GL_SCISSOR_TEST);
-  glScissor(0, 0, kSize / 2, kSize);
+  glScissor(0, 0, kPixelsAcross / 2, kPixelsAcross);
   GLint before = 0, after = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
   {
@@ -280,11 +280,11 @@ TEST_F(Shadows, AHostKeepsWhereItDraws) {
   glGetIntegerv(GL_VIEWPORT, viewport.data());
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &after);
   EXPECT_EQ(after, before);
-  EXPECT_EQ(viewport[2], kSize);
+  EXPECT_EQ(viewport[2], kPixelsAcross);
   EXPECT_TRUE(glIsEnabled(GL_SCISSOR_TEST));
   glDisable(GL_SCISSOR_TEST);
   RenderTarget::unbind();
-  EXPECT_NEAR(target.read(context()).at(kSize / 4, kSize / 2, 0), 0.0f, 0.01f);
+  EXPECT_NEAR(target.read(context()).at(kPixelsAcross / 4, kPixelsAcross / 2, 0), 0.0f, 0.01f);
 }
 
 }  // namespace
