@@ -119,16 +119,25 @@ class PatchCover {
     std::vector<Candidate> candidates;
     for (double tolerance = kPhaseTolerance; candidates.empty(); tolerance *= 1.5) {
       const int count = places.width * places.height;
-      for (int i = 0; i < std::min(count, kTries) && candidates.size() < kCandidates; ++i) {
-        const int n = count <= kTries ? i : static_cast<int>(random_() % static_cast<std::uint64_t>(count));
+      const bool tryAll = count <= kTries;
+      for (int i = 0; tryAll ? i < count : i < kTries && candidates.size() < kCandidates; ++i) {
+        const int n = tryAll ? i : static_cast<int>(random_() % static_cast<std::uint64_t>(count));
         const glm::ivec2 place(places.x + n % places.width, places.y + n / places.width);
-        if (showsPhase(cell, place, tolerance) && !continues(cell, place)) candidates.push_back({place});
+        // At last a place that goes on is better than none: a small sample has few offsets.
+        if (showsPhase(cell, place, tolerance) && (tolerance > 1.0 || !continues(cell, place)))
+          candidates.push_back({place});
       }
+    }
+    // Of more than are compared, some that lie evenly.
+    if (const std::size_t found = candidates.size(); found > kCandidates) {
+      for (std::size_t i = 0; i < kCandidates; ++i) candidates[i] = candidates[i * found / kCandidates];
+      candidates.resize(kCandidates);
     }
     return candidates;
   }
 
-  /// Whether a patch there goes on with the sample as one beside it does.
+  /// Whether a patch there goes on with the sample as one of the last row's length does, those
+  /// beside it among them.
   bool continues(const Cell& cell, glm::ivec2 place) const {
     const glm::ivec2 offset = source_.sampleTexel(place - cell.first + 64 * size_);
     return std::find(offsets_.end() - std::min<std::ptrdiff_t>(columns_ + 1, std::ssize(offsets_)),

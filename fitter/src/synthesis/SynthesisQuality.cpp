@@ -130,6 +130,7 @@ double copiedShare(const CoordinateMap& map, double nearest) {
       const glm::ivec2 texel = map.at(x, y);
       uses[static_cast<std::size_t>(texel.y * map.sampleWidth() + texel.x)].emplace_back(x, y);
     }
+  std::erase_if(uses, [](const auto& places) { return places.empty(); });
   double pairs = 0.0;
   for (const auto& places : uses) pairs += static_cast<double>(places.size() * places.size());
   const auto step = static_cast<std::size_t>(std::max(1.0, pairs / 2e7));

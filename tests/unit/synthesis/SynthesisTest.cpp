@@ -130,6 +130,19 @@ TEST(Synthesis, TexelsOfTheMarginAreNoSources) {
 }
 
 // Every number of textons is more than there are different texels.
+// It has fewer offsets than the row has patches.
+TEST(Synthesis, ASmallSampleMakesAWideSurface) {
+  const auto value = [](int x, int y, int d) { return noiseAt(x, y, d); };
+  EXPECT_EQ(mapOf(sampleOf(12, 12, 3, value), 640, 16).width(), 640);
+}
+
+TEST(Synthesis, SourcesLieAllOverAnIrregularSample) {
+  const auto value = [](int x, int y, int d) { return noiseAt(x, y, d); };
+  const CoordinateMap map = mapOf(sampleOf(96, 96, 3, value), 192, 192);
+  const auto below = std::ranges::count_if(map.texels(), [](const auto& texel) { return texel.y >= 56; });
+  EXPECT_GT(below, std::ssize(map.texels()) / 5);
+}
+
 TEST(Synthesis, OneColourAndFewTexelsAreDefined) {
   const AppearanceSample one = sampleOf(16, 12, 1, [](int, int, int) { return 0.5f; });
   for (const SynthesisMethod method :
