@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -35,16 +37,20 @@ struct Arguments {
   std::size_t memory() const { return static_cast<std::size_t>(memoryGibibytes * 1024.0 * 1024.0 * 1024.0); }
 };
 
+constexpr std::array kMethods{SynthesisMethod::Patches, SynthesisMethod::KCoherence,
+                              SynthesisMethod::JumpMap};
+
 void addMethodOptions(CLI::App& app, SynthesisOptions& synthesis) {
-  std::map<std::string, SynthesisMethod> methods;
-  for (const SynthesisMethod method :
-       {SynthesisMethod::Patches, SynthesisMethod::KCoherence, SynthesisMethod::JumpMap})
-    methods.emplace(name(method), method);
-  app.add_option(
-         "--method", synthesis.method,
+  std::vector<std::string> names;
+  for (const SynthesisMethod method : kMethods) names.emplace_back(name(method));
+  app.add_option_function<std::string>(
+         "--method",
+         [&synthesis](const std::string& word) {
+           synthesis.method = *std::ranges::find(kMethods, word, [](auto method) { return name(method); });
+         },
          "patches: cut where they agree; k-coherence: texel by texel, the best of some; jump-map: texel "
          "by texel at random, for comparison [patches]")
-      ->transform(CLI::CheckedTransformer(methods).description(""));
+      ->check(CLI::IsMember(names));
   app.add_option("-k", synthesis.k, "k-coherence: candidates of each neighbour")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();

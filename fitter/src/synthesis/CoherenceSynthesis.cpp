@@ -151,7 +151,7 @@ std::vector<glm::ivec2> sourcesIn(const CoherentLayer& layer, int width, int hei
 }  // namespace
 
 std::vector<glm::ivec2> synthesizeCoherently(const std::vector<AnalysedLayer>& layers, int width, int height,
-                                             int k, std::uint64_t seed, const Progress& progress) {
+                                             int k, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<CoherentLayer> surface;
   for (std::size_t i = 0; i < layers.size(); ++i)
@@ -163,7 +163,6 @@ std::vector<glm::ivec2> synthesizeCoherently(const std::vector<AnalysedLayer>& l
     surface[i].preset(surface[i + 1]);
     surface[i].synthesize(CoherentLayer::Which::Others);
     surface[i].synthesize(CoherentLayer::Which::Preset);
-    if (progress) progress(1.0 / static_cast<double>(1u << 2 * i));
   }
   return sourcesIn(surface.front(), width, height);
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "SimilarNeighborhoods.h"
-#include "weft/core/Progress.h"
 
 namespace weft {
 
@@ -15,7 +14,7 @@ namespace weft {
 /// `layers`: from fine to coarse, each half of the one before. Returns a texel of the finest layer
 /// for each texel.
 std::vector<glm::ivec2> synthesizeCoherently(const std::vector<AnalysedLayer>& layers, int width, int height,
-                                             int k, std::uint64_t seed, const Progress& progress);
+                                             int k, std::uint64_t seed);
 
 /// A jump map (Zelinka and Garland 2002): each texel continues a neighbour at random, and at times
 /// jumps to what is similar.

@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-/// The strongestWave dimensions show what is regular.
+/// The strongest dimensions show what is regular.
 constexpr int kWaveDimensions = 6;
 /// A wave has this share of the power, and is so many times as strong as others of about its
 /// length, which noise is not.
@@ -23,7 +23,7 @@ constexpr double kShortestPeriod = 4.0;  // texels
 
 using ComplexNumber = std::complex<double>;
 
-/// A sample's strongestWave dimensions with its borders faded out, and its power at a wave.
+/// A sample's strongest dimensions with its borders faded out, and its power at a wave.
 class Spectrum {
  public:
   Spectrum(const AppearanceVectors& vectors, const SourceRegion& region) : region_(region) {

@@ -14,7 +14,7 @@ namespace weft {
 /// A sample that repeats is repeated as far as a patch reaches.
 class PatchSource {
  public:
-  /// `reach`: the largest side of a patch.
+  /// `reach`: about the largest side of a patch, by which a sample that repeats is extended.
   PatchSource(const AppearanceSample& sample, int reach);
 
   /// Where the top left texel of a patch of this size may lie.

@@ -174,7 +174,7 @@ class PatchCover {
     candidates.resize(std::min(candidates.size(), count));
   }
 
-  /// Every second texel of the strips, in an order that shows soon what does not fit.
+  /// Every second texel of the strips.
   std::vector<glm::ivec2> comparedTexels(const Cell& cell) {
     std::vector<glm::ivec2> texels;
     const Overlap& o = cell.overlap;

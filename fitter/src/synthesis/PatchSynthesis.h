@@ -17,7 +17,7 @@ struct PatchSize {
   int reach() const { return step + 1 + overlap; }
 };
 
-/// About a third of the sources' side.
+/// About two fifths of the sources' side.
 PatchSize patchSizeFor(const SourceRegion& sources, int width, int height);
 
 /// Covers a torus of `width` x `height` texels with patches of the sample, row after row: each

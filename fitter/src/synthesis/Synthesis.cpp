@@ -128,10 +128,9 @@ MadeSurface texelByTexel(const AppearanceSample& sample, const SynthesisOptions&
   const std::vector<AnalysedLayer> layers = analysedLayers(sample, options, progress, warnings);
   MadeSurface surface{{}, analysis.seconds(), 0.0};
   const Stopwatch synthesis;
-  surface.texels =
-      options.method == SynthesisMethod::JumpMap
-          ? synthesizeByJumps(layers.front(), options.width, options.height, options.seed)
-          : synthesizeCoherently(layers, options.width, options.height, options.k, options.seed, {});
+  surface.texels = options.method == SynthesisMethod::JumpMap
+                       ? synthesizeByJumps(layers.front(), options.width, options.height, options.seed)
+                       : synthesizeCoherently(layers, options.width, options.height, options.k, options.seed);
   surface.synthesisSeconds = synthesis.seconds();
   const SourceRegion region = sourcesOf(sample);
   for (glm::ivec2& texel : surface.texels) texel += glm::ivec2(region.x, region.y);

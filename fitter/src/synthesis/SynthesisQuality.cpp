@@ -72,7 +72,7 @@ SeamSums seamsOn(const SampleLevel& level, const CoordinateMap& map) {
 
 constexpr int kCorrelatedDimensions = 8;
 
-/// The correlation at each shift, of what `texelAt` shows; `counted` is 1 where there is something.
+/// The correlation at each shift, of what `texelAt` shows: means over texels that overlap there.
 template <class TexelAt>
 Eigen::MatrixXd correlationAt(const AppearanceVectors& vectors, glm::ivec2 size, glm::ivec2 padded,
                               const TexelAt& texelAt) {
@@ -179,11 +179,8 @@ Repetition repetition(const AppearanceSample& sample, const CoordinateMap& map) 
   Repetition result;
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x)
-      if (const glm::ivec2 shift = shortestShift(x, y, size);
-          lengthOf(shift) >= nearest && all(y, x) > result.correlation) {
-        result.correlation = all(y, x);
-        result.shift = shift;
-      }
+      if (lengthOf(shortestShift(x, y, size)) >= nearest)
+        result.correlation = std::max(result.correlation, all(y, x));
   result.ofSample = correlationOfSample(sample, nearest);
   result.copied = copiedShare(map, nearest);
   return result;

@@ -25,8 +25,8 @@ struct SynthesisOptions {
   int height = 0;
   std::uint64_t seed = 1;
   int k = 6;             ///< k-coherence: candidates that each neighbour brings, 1..10
-  int neighborhood = 2;  ///< likewise: texels on each side, 1..3
-  int layers = 3;        ///< of the pyramid, from fine to coarse; the paper's methods
+  int neighborhood = 2;  ///< the paper's methods: texels on each side, 1..3
+  int layers = 3;        ///< k-coherence: of the pyramid, from fine to coarse, 1..8
   int textons = 1000;    ///< centres of the clusters that stand for texels; the paper's methods
 };
 
@@ -40,9 +40,10 @@ struct Synthesis {
   std::vector<std::string> warnings;
 };
 
-/// Makes a coordinate map of `width` x `height` texels that look like the sample. The map repeats:
-/// opposite borders continue each other. Equal input gives an equal map, for any number of threads.
-/// Fails on options out of range, on sizes below 8 texels, and on a sample with too few sources.
+/// Makes a coordinate map of `width` x `height` texels that look like the sample. The map repeats,
+/// but for a jump map: opposite borders continue each other. Equal input gives an equal map, for
+/// any number of threads. Fails on options out of range, on sizes below 8 texels, and on a sample
+/// with too few sources.
 Result<Synthesis> synthesize(const AppearanceSample& sample, const SynthesisOptions& options,
                              const Progress& progress = {});
 

@@ -12,8 +12,8 @@ namespace weft {
 /// themselves, means of 4 x 4 and of 16 x 16 of them.
 ///
 /// A jump is where neighbours a, b of the surface are none in the sample. It is as visible as b
-/// differs from what follows a in the sample, in units of how texels and what follows them differ
-/// all over the sample: 1 is as smooth as the sample. Without jumps it is 0.
+/// differs from what follows a in the sample, in units of how a differs from that: 1 is as smooth
+/// as the sample. Without jumps it is 0.
 struct SeamVisibility {
   static constexpr std::array<int, 3> kSides{1, 4, 16};
   std::array<double, 3> mean{};  ///< over all jumps
@@ -25,8 +25,7 @@ SeamVisibility seamVisibility(const AppearanceSample& sample, const CoordinateMa
 struct Repetition {
   /// The highest at any shift farther than a quarter of the sample, 1 for a copy.
   double correlation = 0.0;
-  glm::ivec2 shift{0};
-  /// The highest of the sample itself at the shifts it has beyond its first minimum: what is
+  /// The highest of the sample itself at shifts beyond the same quarter, up to half of it: what is
   /// regular.
   double ofSample = 0.0;
   /// What repeats beyond what is regular: 0 nothing, 1 a copy.
