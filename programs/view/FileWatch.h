@@ -27,7 +27,7 @@ class FileWatch {
 
   Stamps look() const;
 
-  Stamps known_;   ///< when they were read
+  Stamps known_;   ///< when watch() was called, or at the latest change told
   Stamps latest_;  ///< at the latest look
 };
 

@@ -28,7 +28,6 @@ class OrbitCamera {
 
   /// With planes that enclose the scene as far as it can be seen.
   Camera camera(const Bounds& scene) const;
-  glm::dvec3 target() const { return target_; }
 
  private:
   glm::dvec3 towardsEye() const;

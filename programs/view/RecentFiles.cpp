@@ -30,6 +30,7 @@ Result<void> RecentFiles::add(const std::filesystem::path& opened) {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::absolute(opened, error);
   if (error || path.string().find('\n') != std::string::npos) return {};
+  if (!files_.empty() && files_.front() == path) return {};
   std::erase(files_, path);
   files_.insert(files_.begin(), path);
   files_.resize(std::min(files_.size(), kMost));

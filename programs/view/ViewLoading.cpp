@@ -207,6 +207,7 @@ Result<LoadedView> ViewLoading::assemble(SceneOptions options, std::vector<Loade
   view.files = view.setup.scene().files;
   if (!request_.file.string().starts_with("shape:")) view.files.push_back(request_.file);
   if (std::filesystem::is_regular_file(options.environment)) view.files.emplace_back(options.environment);
+  for (const auto& [name, map] : request_.scene.mapFiles) view.files.emplace_back(map);
   for (const GltfScene::FieldMaterial& own : view.setup.scene().fields) {
     WEFT_TRY(ReflectanceField field, readReflectanceField(own.file, options.models));
     auto shared = std::make_shared<const ReflectanceField>(std::move(field));

@@ -37,6 +37,8 @@ std::filesystem::path freeScreenshotName() {
 
 Viewer::Viewer(ViewerWindow& window, ViewerState& state) : window_(window), state_(state) {
   listen();
+  const glm::vec2 size(window_.framebufferSize());
+  if (size.y > 0.0f) state_.setAspect(size.x / size.y);  // before anything is framed
 }
 
 Result<std::unique_ptr<Viewer>> Viewer::create(ViewerWindow& window, ViewerState& state) {

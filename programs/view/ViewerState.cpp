@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 constexpr std::size_t kMostMessages = 6;
-constexpr std::size_t kMostLamps = 16;
+constexpr std::size_t kMostLamps = 256;  // that can be drawn, with the lights of a file
 
 LightDome domeOf(const LoadedView& view) {
   const Bounds& bounds = view.setup.scene().bounds;
@@ -71,6 +71,8 @@ void ViewerState::show(Result<LoadedView> loaded) {
 // What people have changed stays when the same is loaded once more.
 void ViewerState::keepFrom(LoadedView& before, LoadedView& next) const {
   if (ownLamps_) next.setup.setLamps(before.setup.lamps());
+  next.request.scene.environmentRotation = request_.scene.environmentRotation;
+  next.setup.turnEnvironment(request_.scene.environmentRotation);
   for (LoadedView::Field& field : next.fields) {
     const auto old = std::ranges::find(before.fields, field.name, &LoadedView::Field::name);
     if (old == before.fields.end()) continue;
@@ -100,6 +102,7 @@ void ViewerState::drag(Drag what, glm::dvec2 drag) {
   if (what == Drag::Light) {
     if (view_->setup.lamps().empty()) addLamp();
     auto lamps = view_->setup.lamps();
+    if (lamps.empty()) return;
     SceneOptions::Lamp& lamp = lamps[std::min(selectedLamp_, lamps.size() - 1)];
     lamp.place = domeOf(*view_).dragged(lamp.place, camera(), drag);
     setLamps(std::move(lamps));

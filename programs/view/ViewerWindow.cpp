@@ -75,7 +75,7 @@ void ViewerWindow::listen() {
     return static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window));
   };
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-    if (action != GLFW_RELEASE && !ImGui::GetIO().WantTextInput)
+    if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
       self(window)->listener_.keyPressed(key, modifiers);
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int modifiers) {

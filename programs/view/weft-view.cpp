@@ -96,10 +96,16 @@ int main(int argc, char** argv) {
   options.get_option("SCENE")->description(
       "a .gltf or .glb file, a .rf.exr, a measurement, shape:plane, shape:sphere or shape:cloth; "
       "others can be dropped on the window");
+  options.get_option("--uv-scale")
+      ->default_str("")
+      ->description(
+          "repetitions of a reflectance field, or of its map's surface, per unit of texture coordinates; "
+          "default: 1, of a material alone as suits it");
   arguments.picture.addTo(options);
   options
-      .add_option("--shape", arguments.shape,
-                  "what a material alone lies on: cloth, sphere or plane; default: cloth, for one view plane")
+      .add_option(
+          "--shape", arguments.shape,
+          "what a material alone lies on: cloth, sphere or plane; default: cloth, for one view, plane")
       ->check(CLI::IsMember({"cloth", "sphere", "plane"}));
   options.add_option("--model", arguments.model, "what a measurement is fitted with; default: as weft-fit")
       ->check(CLI::IsMember(ModelRegistry::builtin().names()));

@@ -85,12 +85,7 @@ Result<void> checkNames(const std::vector<GltfScene::FieldMaterial>& replacement
   return {};
 }
 
-struct LoadedScene {
-  GltfScene scene;
-  std::vector<GltfScene::FieldMaterial> fields;
-};
-
-Result<LoadedScene> loadScene(const SceneOptions& options) {
+Result<GltfScene> loadScene(const SceneOptions& options) {
   const bool isShape = options.scene.starts_with(kShapePrefix);
   BTFMaterialOptions btf = options.btf;
   btf.doubleSided = isShape;  // the inside of the cloth shows
@@ -102,7 +97,7 @@ Result<LoadedScene> loadScene(const SceneOptions& options) {
   gltf.time = options.time;
   gltf.animation = options.animation;
   WEFT_TRY_VOID(checkMaps(options));
-  WEFT_TRY(std::vector<GltfScene::FieldMaterial> fields, replacementsOf(options, btf, *gltf.fields));
+  WEFT_TRY(const std::vector<GltfScene::FieldMaterial> fields, replacementsOf(options, btf, *gltf.fields));
   std::shared_ptr<const BTFMaterial> ofAll;
   for (const auto& [name, file, material] : fields) {
     gltf.replacements[name] = material;
@@ -111,8 +106,7 @@ Result<LoadedScene> loadScene(const SceneOptions& options) {
   WEFT_TRY(GltfScene scene, isShape ? makeShape(options.scene.substr(kShapePrefix.size()), ofAll)
                                     : loadGltf(options.scene, gltf));
   WEFT_TRY_VOID(checkNames(fields, scene, options.scene));
-  fields.insert(fields.end(), scene.fields.begin(), scene.fields.end());
-  return LoadedScene{std::move(scene), std::move(fields)};
+  return scene;
 }
 
 // The radius of a scene; a single point may have any.
@@ -181,9 +175,8 @@ SceneSetup::SceneSetup(GltfScene scene) : scene_(std::move(scene)) {
 }
 
 Result<SceneSetup> SceneSetup::create(const SceneOptions& options) {
-  WEFT_TRY(LoadedScene loaded, loadScene(options));
-  SceneSetup setup(std::move(loaded.scene));
-  setup.fields_ = std::move(loaded.fields);
+  WEFT_TRY(GltfScene scene, loadScene(options));
+  SceneSetup setup(std::move(scene));
   setup.shadows_ = options.shadows;
   for (const std::string& warning : setup.scene_.warnings)
     setup.warnings_.push_back(fmt::format("{}: {}", options.scene, warning));

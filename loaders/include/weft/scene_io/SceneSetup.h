@@ -66,8 +66,6 @@ class SceneSetup {
   const Node& root() const { return *root_; }
   const Camera& camera() const { return camera_; }
   const GltfScene& scene() const { return scene_; }
-  /// All reflectance fields of the scene, the options' included: those by their names there.
-  const std::vector<GltfScene::FieldMaterial>& fields() const { return fields_; }
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
   /// Those that the options named, or the one above left of the camera; not the file's lights.
   const std::vector<SceneOptions::Lamp>& lamps() const { return lamps_; }
@@ -92,7 +90,6 @@ class SceneSetup {
   std::shared_ptr<Node> lampNode_ = std::make_shared<Node>();
   std::shared_ptr<Transform> environmentTurn_ = std::make_shared<Transform>();
   Camera camera_;
-  std::vector<GltfScene::FieldMaterial> fields_;
   std::vector<SceneOptions::Lamp> lamps_;
   bool shadows_ = false;  ///< of lamps
   std::vector<std::string> warnings_;
