@@ -23,7 +23,7 @@ float difference(float a, float b) {
 
 ImageComparison compareImages(const FloatImage& actual, const FloatImage& expected, float tolerance) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  if (!sameShape(actual, expected)) return {infinity, infinity, 1.0};
+  if (!sameShape(actual, expected)) return {infinity, infinity, 1.0, infinity};
   ImageComparison result;
   const auto a = actual.values();
   const auto b = expected.values();
@@ -32,14 +32,17 @@ ImageComparison compareImages(const FloatImage& actual, const FloatImage& expect
   for (std::size_t pixel = 0; pixel < a.size(); pixel += channels) {
     float worst = 0.0f;
     for (std::size_t i = pixel; i < pixel + channels; ++i) {
-      worst = std::max(worst, difference(a[i], b[i]));
-      result.mean += difference(a[i], b[i]);
+      const float apart = difference(a[i], b[i]);
+      worst = std::max(worst, apart);
+      result.mean += apart;
+      result.rootMeanSquare += double{apart} * apart;
     }
     result.maximum = std::max(result.maximum, worst);
     if (worst > tolerance) ++failing;
   }
   if (!a.empty()) {
     result.mean /= static_cast<double>(a.size());
+    result.rootMeanSquare = std::sqrt(result.rootMeanSquare / static_cast<double>(a.size()));
     result.failingShare = static_cast<double>(failing * channels) / static_cast<double>(a.size());
   }
   return result;

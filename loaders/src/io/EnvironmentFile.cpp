@@ -8,9 +8,8 @@
 #include <cstring>
 
 #include "weft/core/AtomicFile.h"
-#include "weft/core/FileKind.h"
-#include "weft/io/ExrFile.h"
 #include "weft/io/FileBytes.h"
+#include "weft/io/PictureFile.h"
 
 namespace weft {
 namespace {
@@ -154,20 +153,10 @@ Result<PrefilteredEnvironment> readKept(const std::filesystem::path& file, const
   return prefiltered;
 }
 
-Result<FloatImage> readPicture(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  WEFT_TRY(const std::vector<std::uint8_t> start, readFileStart(path, kFileKindBytes));
-  const FileKind kind = fileKind(start);
-  if (kind == FileKind::Exr) return readExrPicture(path, warnings);
-  if (kind != FileKind::Radiance)
-    return failOtherKind(kind, "a Radiance (.hdr) or OpenEXR picture", path.string());
-  WEFT_TRY(const std::vector<std::uint8_t> bytes, readFileBytes(path, kLargestImageFile));
-  return decodeRadiance(bytes, path.string(), warnings);
-}
-
 }  // namespace
 
 Result<Environment> readEnvironment(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  WEFT_TRY(const FloatImage picture, readPicture(path, warnings));
+  WEFT_TRY(const FloatImage picture, readLinearPicture(path, warnings));
   auto environment = Environment::create(picture, warnings);
   if (!environment) return fail(environment.error().what, path.string(), environment.error().hint);
   return environment;

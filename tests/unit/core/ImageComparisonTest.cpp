@@ -31,6 +31,7 @@ TEST(ImageComparison, MeasuresMaximumMeanAndShare) {
   const ImageComparison result = compareImages(image, flat(0.0f), 0.125f);
   EXPECT_EQ(result.maximum, 0.5f);
   EXPECT_DOUBLE_EQ(result.mean, 0.875 / 40.0);
+  EXPECT_DOUBLE_EQ(result.rootMeanSquare, std::sqrt((0.25 + 0.0625 + 0.015625) / 40.0));
   EXPECT_DOUBLE_EQ(result.failingShare, 1.0 / 20.0);  // 0.125 is within the tolerance
 }
 

@@ -11,6 +11,7 @@ struct ImageComparison {
   double mean = 0.0;  ///< mean absolute difference
   /// share of pixels in which some channel differs by more than the tolerance
   double failingShare = 0.0;
+  double rootMeanSquare = 0.0;  ///< of the differences
 };
 
 /// Compares; images of different shape are infinitely far apart.
