@@ -9,8 +9,6 @@ bin=$PWD/build/release/bin
 mkdir -p out/demo
 cd out/demo
 
-# A broad warm light from the upper left, a weak one from the camera's side and one from behind.
-lights=(--light -4,3,2.5:.8,.77,.72 --light -3,4.5,1:.55,.53,.5 --light 3,-1,5:.16,.18,.22 --light 3,3,-5:.3,.32,.35)
 render() { "$bin/weft-render" "$@" --material '*=corduroy.rf.exr'; }
 
 echo "Baking a corduroy: 81 views x 81 lights"
@@ -18,8 +16,8 @@ echo "Baking a corduroy: 81 views x 81 lights"
 echo "Fitting two lobes to each of its texels and views"
 "$bin/weft-fit" corduroy.zip -o corduroy.rf.exr --model rfnl --lobes 2 --json corduroy.json
 echo "Rendering"
-render shape:cloth -o cloth.png --uv-scale 24 "${lights[@]}"
-render shape:sphere -o sphere.png --uv-scale 18 --camera 0.3,0.6,3.1:0,0,0 "${lights[@]}"
+render shape:cloth -o cloth.png --uv-scale 24
+render shape:sphere -o sphere.png --uv-scale 18 --camera 0.3,0.6,3.1:0,0,0
 render shape:plane -o plane.png --size 800x400 --uv-scale 20 --camera 0,-0.75,0.22:0,-0.1,0 \
   --light -3,0.5,1.3:1.3,1.25,1.2 --light 2,-2,1:.1,.12,.15
 

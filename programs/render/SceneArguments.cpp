@@ -61,6 +61,7 @@ bool readCamera(const std::string& text, SceneOptions& options) {
 }
 
 bool readLamp(const std::string& text, SceneOptions& options) {
+  if (text == "studio") return options.studio = true;
   const auto [placeText, colorText] = splitAt(text, ':');
   const auto place = vectorFrom(placeText);
   const auto color = colorText.empty() ? glm::dvec3(1.0) : vectorFrom(colorText);
@@ -90,8 +91,10 @@ void SceneArguments::addTo(CLI::App& options) {
   options
       .add_option(
           "--light", lights,
-          "x,y,z[:r,g,b]: a point light under which white at the scene's centre shows r,g,b (1,1,1); "
-          "repeatable, instead of the file's lights; default without those: one above left of the camera")
+          "x,y,z[:r,g,b]: a point light under which white at the scene's centre shows r,g,b (1,1,1); or "
+          "studio: a key light above left of what the camera sees, a fill to its right, a rim light behind; "
+          "repeatable, instead of the file's lights; default where there is no light: studio; in weft-view, "
+          "one lamp, which is quicker")
       ->allow_extra_args(false);
   options
       .add_option("--material", materials,
@@ -151,8 +154,9 @@ tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
         "--camera takes a name or x,y,z:tx,ty,tz, two places of numbers up to {}", kLargestNumber));
   for (const std::string& light : lights)
     if (!readLamp(light, options))
-      return tl::unexpected(fmt::format(
-          "--light takes x,y,z or x,y,z:r,g,b, numbers up to {}, colours not below 0", kLargestNumber));
+      return tl::unexpected(
+          fmt::format("--light takes studio, x,y,z or x,y,z:r,g,b, numbers up to {}, colours not below 0",
+                      kLargestNumber));
   for (const std::string& material : materials)
     if (!readFile(material, options.materialFiles))
       return tl::unexpected<std::string>("--material takes NAME=FILE.rf.exr, or *=FILE.rf.exr for all");

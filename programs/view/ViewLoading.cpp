@@ -201,6 +201,7 @@ Result<LoadedView> ViewLoading::assemble(SceneOptions options, std::vector<Loade
     options.materials[field.name] = field.material;
     options.mapFiles.erase(field.name);  // it has it
   }
+  options.defaultLight = SceneOptions::DefaultLight::Lamp;
   WEFT_TRY(SceneSetup setup, SceneSetup::create(options));
   LoadedView view{request_, std::move(setup), std::move(fields)};
   view.warnings = view.setup.warnings();

@@ -114,6 +114,18 @@ TEST_F(RenderCommand, ALightShowsItsColourOnWhiteThatFacesIt) {
   }
 }
 
+TEST_F(RenderCommand, AStudioIsTheLightOfWhatHasNone) {
+  const auto pictureWith = [&](const std::vector<std::string>& more) {
+    EXPECT_EQ(render("shape:cloth", more).exitCode, 0);
+    return test::valueOf(readImage(output)).bytes;
+  };
+  const auto unlit = pictureWith({});
+  EXPECT_EQ(pictureWith({"--light", "studio"}), unlit);
+  EXPECT_NE(pictureWith({"--light", "studio", "--light", "3,1,2"}), unlit);
+  std::filesystem::remove(output);
+  expectBadUsage(render("shape:cloth", {"--light", "studios"}), "--light takes studio, x,y,z");
+}
+
 TEST_F(RenderCommand, DressesASceneInAReflectanceField) {
   test::writeConstantField(folder / "teal.rf.exr", {0.0f, 0.5f, 0.5f});
   const std::string scene = write("scene.gltf", test::planeGltf()).string();

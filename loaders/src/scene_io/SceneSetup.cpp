@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/ext/scalar_constants.hpp>
@@ -23,6 +24,11 @@ namespace {
 
 constexpr std::string_view kShapePrefix = "shape:";
 const glm::vec3 kDefaultView{0.6f, 0.5f, 1.0f};
+// Places as the camera sees them, to the right, up and towards it, in four radii of the scene.
+const SceneOptions::Lamp kSingleLamp{{-0.7, 0.8, 1.0}, glm::vec3(1.0f)};
+const std::array<SceneOptions::Lamp, 3> kStudio{{{{-0.9, 0.9, 0.7}, {1.0f, 0.96f, 0.91f}},
+                                                 {{0.9, 0.0, 1.0}, {0.15f, 0.17f, 0.2f}},
+                                                 {{0.7, 0.6, -1.0}, {0.3f, 0.32f, 0.35f}}}};
 
 // A plane on which the texels of the surface are square: its longer side is 1.
 Mesh planeFor(const BTFMaterial* material) {
@@ -92,7 +98,7 @@ Result<GltfScene> loadScene(const SceneOptions& options) {
   GltfOptions gltf;
   gltf.btf = btf;
   gltf.fields = options.fields ? options.fields : std::make_shared<FieldCache>(options.models);
-  gltf.lights = options.lamps.empty();
+  gltf.lights = options.lamps.empty() && !options.studio;
   gltf.shadows = options.shadows;
   gltf.time = options.time;
   gltf.animation = options.animation;
@@ -209,12 +215,16 @@ Result<void> SceneSetup::chooseCamera(const SceneOptions& options) {
 
 void SceneSetup::chooseLamps(const SceneOptions& options) {
   std::vector<SceneOptions::Lamp> lamps = options.lamps;
-  if (lamps.empty() && options.environment.empty() && scene_.lights == 0) {
-    const glm::dmat3 toWorld = glm::transpose(glm::dmat3(camera_.view));
+  const bool isDark = lamps.empty() && options.environment.empty() && scene_.lights == 0;
+  const glm::dmat3 toWorld = glm::transpose(glm::dmat3(camera_.view));
+  const auto add = [&](const SceneOptions::Lamp& lamp) {
     lamps.push_back(
-        {scene_.bounds.center() + 4.0 * sizeOf(scene_.bounds) * (toWorld * glm::dvec3(-0.7, 0.8, 1.0)),
-         glm::vec3(1.0f)});
-  }
+        {scene_.bounds.center() + 4.0 * sizeOf(scene_.bounds) * (toWorld * lamp.place), lamp.color});
+  };
+  if (options.studio || (isDark && options.defaultLight == SceneOptions::DefaultLight::Studio))
+    for (const SceneOptions::Lamp& lamp : kStudio) add(lamp);
+  else if (isDark)
+    add(kSingleLamp);
   setLamps(std::move(lamps));
 }
 

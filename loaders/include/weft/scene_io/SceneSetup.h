@@ -28,6 +28,9 @@ struct SceneOptions {
     glm::dvec3 place;
     glm::vec3 color;
   };
+  /// What lights a scene that has no light: the lamps of `studio`, or the first of them alone, more
+  /// from the front, which costs a third of the time.
+  enum class DefaultLight { Studio, Lamp };
 
   std::string scene;  ///< a glTF file, or shape:plane, shape:sphere, shape:cloth
   /// a `.rf.exr` a material; "*" for all not named
@@ -40,9 +43,11 @@ struct SceneOptions {
   ModelRegistry models = ModelRegistry::builtin();  ///< that reflectance fields may be of
   /// Where those come from, instead of models; null: each is read once for this scene.
   std::shared_ptr<FieldCache> fields{};
-  std::optional<double> time{};            ///< seconds after the start of an animation
-  std::string animation{};                 ///< which one; empty: the first
-  std::vector<Lamp> lamps{};               ///< instead of the file's lights, if any
+  std::optional<double> time{};  ///< seconds after the start of an animation
+  std::string animation{};       ///< which one; empty: the first
+  std::vector<Lamp> lamps{};     ///< instead of the file's lights, if any
+  bool studio = false;           ///< adds a key, a fill and a rim lamp to those
+  DefaultLight defaultLight = DefaultLight::Studio;
   bool shadows = false;                    ///< whether lamps and the file's lights cast shadows
   std::string cameraName{};                ///< empty: the file's first, or all of the scene
   std::optional<PointOfView> viewpoint{};  ///< instead of a name
@@ -56,7 +61,8 @@ struct SceneOptions {
 
 /// A scene that is ready to be drawn: what weft-render and viewers show.
 ///
-/// Without lamps, lights of the file and an environment, one lamp stands above left of the camera.
+/// A studio's lamps stand around the scene as the camera sees it: the key light above left, the
+/// fill to the right, the rim light behind.
 class SceneSetup {
  public:
   /// Fails, with file and reason, as loadGltf(), loadBTFMaterial() and environmentNamed() do, and
@@ -67,7 +73,7 @@ class SceneSetup {
   const Camera& camera() const { return camera_; }
   const GltfScene& scene() const { return scene_; }
   const std::vector<std::string>& warnings() const { return warnings_; }  ///< a sentence each
-  /// Those that the options named, or the one above left of the camera; not the file's lights.
+  /// Those that the options asked for, or the default light's; not the file's lights.
   const std::vector<SceneOptions::Lamp>& lamps() const { return lamps_; }
   /// Shows other lamps instead of these.
   void setLamps(std::vector<SceneOptions::Lamp> lamps);
