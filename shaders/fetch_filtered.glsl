@@ -5,8 +5,11 @@ Texel fetchTexel(Place place) {
   Texel texel;
   texel.baseColor =
       textureGrad(baseColors, vec3(place.texcoord, 0.0), place.toRight, place.upwards).rgb;
-  for (int i = 0; i < SHARED_TEXELS; ++i)
+  texel.count = weightsAt(place.toRight, place.upwards);
+  int i = 0;
+  do {
     texel.weights[i] =
         textureGrad(sharedParameters, vec3(place.texcoord, i), place.toRight, place.upwards);
+  } while (++i < texel.count);
   return texel;
 }

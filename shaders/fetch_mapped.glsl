@@ -54,10 +54,12 @@ void addTexel(inout Texel sum, float share, Place place, int field) {
   vec3 color =
       textureGrad(baseColors, vec3(place.texcoord, field), place.toRight, place.upwards).rgb;
   sum.baseColor += share * color;
-  for (int i = 0; i < SHARED_TEXELS; ++i)
+  int i = 0;
+  do {
     sum.weights[i] +=
         share * textureGrad(sharedParameters, vec3(place.texcoord, field * SHARED_TEXELS + i),
                             place.toRight, place.upwards);
+  } while (++i < sum.count);
 }
 
 Texel fetchTexel(Place place) {
@@ -71,6 +73,8 @@ Texel fetchTexel(Place place) {
   int fetches = count + (coarse > 0.0 ? 1 : 0);
   Texel texel;
   texel.baseColor = vec3(0.0);
+  // The surface's own levels have all.
+  texel.count = coarse > 0.0 ? SHARED_TEXELS : weightsAt(place.toRight, place.upwards);
   for (int i = 0; i < SHARED_TEXELS; ++i) texel.weights[i] = vec4(0.0);
   int tap = 0;
   // One loop that is tested at its end: Mesa's software renderer executes what lies behind a

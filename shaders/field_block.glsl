@@ -7,6 +7,7 @@ layout(std140, binding = materialBinding) uniform ReflectanceField {
   float lowestViewZ;         // of the measured views; models see no lower ones
   vec3 tint;                 // what the result is multiplied by
   float quadratureExponent;  // of lobes as wide as the measured lights are apart
+  ivec4 weightsOfLevels[4];  // filtered_texel.glsl: fours of them, that are not all 0, by level
 };
 
 // The direction, or the one on the ring at height z below which it lies (field_value.glsl).

@@ -8,16 +8,18 @@ vec3 notBelow(vec3 direction, float z) {
   return vec3(azimuth * sqrt(1.0 - z * z), z);
 }
 
-#ifndef MODEL_GIVES_COLOR
 // Linear RGB, with or without n.l as it was fitted.
 vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
+#ifdef MODEL_GIVES_COLOR
+  return DECODE(evaluateColor(texel, layer, light));
+#else
   vec3 value;
   for (int c = 0; c < COLOR_CHANNELS; ++c)
     value[c] = evaluateModel(texel.channels[c], layer.channels[c], light, view);
   if (COLOR_CHANNELS == 1) value = value.xxx;
   return DECODE(value * texel.channels[0].texels[0].rgb);
-}
 #endif
+}
 
 // The value, n.l included, for light from `light` above the horizon.
 vec3 valueWithCosine(Texel texel, Layer layer, vec3 light, vec3 view) {

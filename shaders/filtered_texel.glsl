@@ -9,12 +9,23 @@ layout(binding = baseColorsUnit) uniform sampler2DArray baseColors;
 
 struct Texel {
   vec3 baseColor;
+  int count;  // of the weights that are needed
   vec4 weights[SHARED_TEXELS];
 };
 
 struct Layer {
   int index;
 };
+
+// How many fours of weights are not all 0 where a pixel covers so much of the surface.
+int weightsAt(vec2 toRight, vec2 upwards) {
+  vec2 size = vec2(surfaceSize());
+  vec2 across = toRight * size, along = upwards * size;
+  float level = 0.5 * log2(max(max(dot(across, across), dot(along, along)), 1.0));
+  // Rounding takes nothing from a whole level.
+  int whole = min(int(level + 1e-3), 15);
+  return weightsOfLevels[whole / 4][whole % 4];
+}
 
 ivec2 fieldSize() {
   return textureSize(sharedParameters, 0).xy;

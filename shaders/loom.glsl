@@ -48,12 +48,14 @@ vec3 hueOf(float red, float blue) {
   return vec3(red, -(0.2126 * red + 0.0722 * blue) / 0.7152, blue);
 }
 
-// Linear RGB, without n.l.
-vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
+// As it was fitted, without n.l.
+vec3 evaluateColor(Texel texel, Layer layer, vec3 light) {
   vec2 place = lightMapPlace(light, layer.index);
   float y = 0.0;
-  for (int i = 0; i < COMPONENTS / 4; ++i)
+  int i = 0;
+  do {
     y += dot(texel.weights[i], textureLod(lightMaps, vec3(place, i), 0.0));
+  } while (++i < texel.count);
   vec4 hue = textureLod(lightMaps, vec3(place, COMPONENTS / 4), 0.0);
   float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
   // What components reflect is not told apart: it counts as diffuse.
@@ -68,28 +70,24 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
   fetchMoments(frame);
 }
 
-// What four channels of the maps reflect of red, green and blue light.
-mat3x4 reflectedOf(int channels, int firstTerm, int view, EnvironmentFrame frame) {
+// What a term of the light contributes to four channels of the maps.
+vec4 factorsOf(int term, int view, int channels) {
   // Mesa's software renderer takes longer for texelFetch().
-  vec2 size = vec2(textureSize(lightPolynomials, 0).xy);
-  mat3x4 sum = mat3x4(0.0);
-  for (int term = firstTerm; term < 6; ++term) {
-    vec2 place = (vec2(term, view) + 0.5) / size;
-    vec4 factors = textureLod(lightPolynomials, vec3(place, channels), 0.0);
-    vec3 moment = frame.moments[term];
-    sum += mat3x4(moment.r * factors, moment.g * factors, moment.b * factors);
-  }
-  return sum;
+  vec2 place = (vec2(term, view) + 0.5) / vec2(textureSize(lightPolynomials, 0).xy);
+  return textureLod(lightPolynomials, vec3(place, channels), 0.0);
 }
 
 vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
-  vec3 y = vec3(0.0);
-  for (int i = 0; i < COMPONENTS / 4; ++i)
-    y += texel.weights[i] * reflectedOf(i, i < QUADRATIC / 4 ? 0 : 3, layer.index, frame);
-  mat3x4 hue = reflectedOf(COMPONENTS / 4, 0, layer.index, frame);
-  vec2 weights = texel.weights[0].xy;
-  float green = hueOf(dot(weights, hue[1].xy), dot(weights, hue[1].zw)).g;
-  vec3 color = vec3(dot(weights, hue[0].xy), green, dot(weights, hue[2].zw));
-  return diffusePart * max(y * texel.baseColor + color, 0.0);
+  vec3 color = vec3(0.0);
+  for (int term = 0; term < 6; ++term) {
+    int components = term < 3 ? min(QUADRATIC, COMPONENTS) : COMPONENTS;
+    float y = 0.0;
+    for (int i = 0; i < components / 4; ++i)
+      y += dot(texel.weights[i], factorsOf(term, layer.index, i));
+    vec4 hue = factorsOf(term, layer.index, COMPONENTS / 4);
+    float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
+    color += (y * texel.baseColor + hueOf(red, blue)) * frame.moments[term];
+  }
+  return diffusePart * max(color, 0.0);
 }
 #endif

@@ -11,7 +11,9 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
   Texel texel = fetchTexel(place);
   vec3 seenFrom = notBelow(view, lowestViewZ);
   vec3 radiance = vec3(0.0);
-  for (int i = 0; i < incomingCount(); ++i) {
+  if (incomingCount() == 0) return radiance;
+  int i = 0;
+  do {
     vec3 l;
     vec3 light = incomingAt(i, frame, environment, l);
     if (l.z <= 0.0) continue;
@@ -21,6 +23,6 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
       if (layers.weight[k] > 2e-6)
         radiance += layers.weight[k] * light *
                     valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
-  }
+  } while (++i < incomingCount());
   return radiance;
 }

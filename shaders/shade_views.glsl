@@ -12,7 +12,6 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
   LayerWeights layers = findLayers(view);
   place = seenAt(place, layers, view);
   Texel texel = fetchTexel(place);
-  // Lights outside, views inside: loops that compilers unroll.
   vec3 radiance = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     if (layers.weight[k] == 0.0) continue;
@@ -20,7 +19,9 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
     radiance += layers.weight[k] * environmentValue(texel, fetchLayer(place, index), place, index,
                                                     seenFrom, environment);
   }
-  for (int i = 0; i < incomingCount(); ++i) {
+  if (incomingCount() == 0) return radiance;
+  int i = 0;
+  do {
     vec3 l;
     vec3 light = incomingAt(i, frame, environment, l);
     if (l.z <= 0.0) continue;
@@ -28,6 +29,6 @@ vec3 radianceOf(Place place, vec3 view, TangentFrame frame, EnvironmentFrame env
       if (layers.weight[k] > 0.0)
         radiance += layers.weight[k] * light *
                     valueWithCosine(texel, fetchLayer(place, layers.index[k]), l, seenFrom);
-  }
+  } while (++i < incomingCount());
   return radiance;
 }

@@ -113,6 +113,26 @@ std::map<std::string, std::string> aliasesOf(const FieldFormula& formula) {
            formula.integratesEnvironments() ? "surroundings_formula.glsl" : "surroundings_quadrature.glsl"}};
 }
 
+// How many fours of numbers behind the base colour are needed to hold what is not 0; at least one.
+int foursNeeded(const FloatImage& shared) {
+  int needed = 1;
+  forEachTexel(shared, [&](int x, int y, int) {
+    const std::span<const float> numbers = shared.texel(x, y).subspan(3);
+    const auto last =
+        std::ranges::find_if(numbers.rbegin(), numbers.rend(), [](float w) { return w != 0.0f; });
+    needed = std::max(needed, static_cast<int>(numbers.rend() - last + 3) / 4);
+  });
+  return needed;
+}
+
+std::array<std::int32_t, 16> weightsOfLevels(const ReflectanceField& field) {
+  std::array<std::int32_t, 16> weights{};
+  const std::size_t coarsest = field.levels().size() - 1;
+  for (std::size_t level = 0; level < weights.size(); ++level)
+    weights[level] = level <= coarsest ? foursNeeded(field.levels()[level].shared) : weights[coarsest];
+  return weights;
+}
+
 std::uint64_t textureBytes(const FloatImage& image, int arrayLayers, std::uint64_t texelBytes) {
   return texelBytes * static_cast<std::uint64_t>(image.width()) * static_cast<std::uint64_t>(image.height()) *
          static_cast<std::uint64_t>(arrayLayers);
@@ -221,6 +241,7 @@ FieldProgram FieldProgram::create(const ReflectanceField& field) {
   program.defines["SHARED_TEXELS"] = std::to_string(FieldTextures::sharedTexels(model));
   program.defines["LAYER_TEXELS"] = std::to_string(FieldTextures::layerTexels(model));
   program.defines["DECODE"] = decodeFunction(field.description().encoding);
+  if (model.filtersParameters()) program.block.weightsOfLevels = weightsOfLevels(field);
   if (field.description().hasCosine) program.defines["MODEL_HAS_COSINE"] = "";
   if (const std::string text = model.shaderText(); !text.empty()) program.texts[model.shaderFile()] = text;
   int unit = bindings::firstTableUnit;

@@ -125,14 +125,16 @@ TEST(LoomFitter, LevelsAreTheFilteredField) {
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(valueAt(level, x, y)[c], mean[c], 0.01f) << level;
       }
   }
-  // The coarsest of 3 x 3 is the mean of all.
+  // The coarsest of 3 x 3 is the mean of all, and has the first eight weights.
   const FloatImage& finest = field.shared();
-  for (int k = 3; k < finest.channelCount(); ++k) {
+  for (int k = 3; k < 3 + 8; ++k) {
     float mean = 0.0f;
     for (int y = 0; y < kTexelsASide; ++y)
       for (int x = 0; x < kTexelsASide; ++x) mean += finest.at(x, y, k) / (kTexelsASide * kTexelsASide);
     EXPECT_NEAR(field.levels().back().shared.at(0, 0, k), mean, 0.005f);
   }
+  for (int k = 3 + 8; k < finest.channelCount(); ++k)
+    EXPECT_EQ(field.levels().back().shared.at(0, 0, k), 0.0f);
 }
 
 void expectFinite(const ReflectanceField& field) {

@@ -43,23 +43,30 @@ Sums halved(const Sums& fine) {
                       [&](int x, int y) { return fine.of(x, y); })};
 }
 
-double product(const float* a, std::span<const double> gram, const float* b, std::size_t components) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < components; ++i) {
-    double row = 0.0;
-    for (std::size_t k = 0; k < components; ++k) row += gram[i * components + k] * double{b[k]};
-    sum += double{a[i]} * row;
-  }
-  return sum;
+// How many components a coarse level has: what the others hold averages out over its texels.
+std::size_t componentsOf(std::size_t level, std::size_t components) {
+  constexpr std::size_t kOfLevel2 = 32, kFewest = 8;
+  if (level < 2) return components;
+  return std::min(components, std::max(kOfLevel2 >> std::min<std::size_t>(level - 2, 8), kFewest));
 }
 
-glm::vec3 colorOf(const float* sums, std::span<const double> gram, std::size_t components) {
-  const double squares = product(sums, gram, sums, components);
+// The base colour with which the first `kept` weights come closest to what all weights give of red,
+// green and blue.
+glm::vec3 colorOf(const float* sums, std::span<const double> gram, std::size_t components, std::size_t kept) {
+  // `numbers` of some weights times the products of terms times the weights that are kept
+  const auto product = [&](const float* numbers, std::size_t count) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < kept; ++k)
+        sum += double{numbers[i]} * gram[i * components + k] * double{sums[k]};
+    return sum;
+  };
+  const double squares = product(sums, kept);
   if (!(squares > 0.0)) return glm::vec3(1.0f);
   glm::vec3 color;
   for (int c = 0; c < 3; ++c)
-    color[c] = static_cast<float>(
-        product(sums + static_cast<std::size_t>(c + 1) * components, gram, sums, components) / squares);
+    color[c] = static_cast<float>(product(sums + static_cast<std::size_t>(c + 1) * components, components) /
+                                  squares);
   return color;
 }
 
@@ -91,14 +98,15 @@ std::vector<FieldLevel> loomLevels(FieldLevel finest, std::span<const double> gr
   levels.push_back(std::move(finest));
   while (sums.width > 1 || sums.height > 1) {
     sums = halved(sums);
+    const std::size_t kept = componentsOf(levels.size(), components);
     FloatImage shared(sums.width, sums.height, channels);
     tbb::parallel_for(0, sums.height, [&](int y) {
       for (int x = 0; x < sums.width; ++x) {
         const std::span<float> texel = shared.texel(x, y);
         const float* from = sums.of(x, y);
-        const glm::vec3 color = roundColor(colorOf(from, gram, components));
+        const glm::vec3 color = roundColor(colorOf(from, gram, components, kept));
         for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = color[c];
-        for (std::size_t k = 0; k < components; ++k) texel[3 + k] = roundWeight(from[k]);
+        for (std::size_t k = 0; k < kept; ++k) texel[3 + k] = roundWeight(from[k]);
       }
     });
     if (precision == Precision::Half) shared.roundToHalf();

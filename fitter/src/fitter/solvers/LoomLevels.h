@@ -18,7 +18,8 @@ std::vector<double> weightedGram(std::span<const float> terms, std::size_t compo
 /// All levels down to one texel, whose shared numbers are a base colour, then weights.
 ///
 /// Box filtered weights give box filtered luminance; the base colour of a coarser texel is the one
-/// that comes closest to the box filtered colours of its finest ones. Levels are made from
+/// that comes closest to the box filtered colours of its finest ones. From the third level on there
+/// are fewer components, 32, 16, then 8: the weights of the others are 0. Levels are made from
 /// unrounded numbers, then rounded.
 std::vector<FieldLevel> loomLevels(FieldLevel finest, std::span<const double> gram,
                                    const std::function<float(float)>& roundWeight,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -58,6 +59,9 @@ struct FieldBlock {
   float lowestViewZ = 0.0f;      ///< likewise
   glm::vec3 tint{1.0f};          ///< what is shown is multiplied by it
   float quadratureExponent = 1.0f;
+  /// Of a model that filters its parameters: how many fours of them, not all 0, texels of a level
+  /// have; those beyond the field's coarsest level have as many as that
+  std::array<std::int32_t, 16> weightsOfLevels{};
 };
 
 /// What a program must know of a field beside FieldTextures to show it: small, and the same for
