@@ -160,7 +160,7 @@ Json jsonOf(const ComparedModel& model) {
   const ModelDescription& description = model.fit.field.model().description();
   Json json = {{"label", model.label}, {"name", description.name}, {"file", model.file}};
   for (const auto& [name, value] : description.options)
-    std::visit([&](const auto& plain) { json[name] = plain; }, value);
+    std::visit([&option = json[name]](const auto& plain) { option = plain; }, value);
   json.update(Json::parse(toJson(model.fit.errors, model.fit.heldOut)));
   json["bytes"] = {{"file", model.fileBytes}, {"gpu", model.gpuBytes}};
   json["seconds"] = {{"fit", model.fit.secondsFitting}};

@@ -133,7 +133,7 @@ Result<FieldManifest> manifestFrom(const Json& json, const ModelRegistry& models
 Json toJson(const ModelDescription& model) {
   Json options = Json::object();
   for (const auto& [name, value] : model.options)
-    std::visit([&](const auto& plain) { options[name] = plain; }, value);
+    std::visit([&option = options[name]](const auto& plain) { option = plain; }, value);
   return {{"name", model.name}, {"options", options}};
 }
 

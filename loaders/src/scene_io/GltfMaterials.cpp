@@ -104,7 +104,7 @@ Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Ma
 }
 
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {
-  WEFT_TRY(PBROptions options, GltfPbr(file_, textures_, warnings_).read(material));
+  WEFT_TRY(PBROptions options, GltfPbr(file_, textures_).read(material));
   if (shading != Shading::Full) options.normalTexture = {};
   if (shading == Shading::Unlit) options.unlit = true;
 

@@ -13,8 +13,7 @@ std::string quoted(const tinygltf::Material& material);
 class GltfPbr {
  public:
   /// All must outlive this.
-  GltfPbr(const GltfFile& file, GltfTextures& textures, std::vector<std::string>& warnings)
-      : file_(file), textures_(textures), warnings_(warnings) {}
+  GltfPbr(const GltfFile& file, GltfTextures& textures) : file_(file), textures_(textures) {}
 
   /// The sets of texture coordinates of its textures are the file's.
   Result<PBROptions> read(const tinygltf::Material& material);
@@ -36,7 +35,6 @@ class GltfPbr {
 
   const GltfFile& file_;
   GltfTextures& textures_;
-  std::vector<std::string>& warnings_;
 };
 
 }  // namespace weft

@@ -99,9 +99,9 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
   std::map<int, TextureOptions> sampling = samplingOf(field);
   for (const auto& [unit, image] : images) {
     sampling[unit].shape = TextureShape::Array;
-    made->add(unit, std::make_shared<TextureChunk>(
-                        std::make_shared<const TextureSource>([shelf, unit] { return shelf->take(unit); }),
-                        sampling[unit]));
+    made->add(unit, std::make_shared<TextureChunk>(std::make_shared<const TextureSource>(
+                                                       [shelf, unit = unit] { return shelf->take(unit); }),
+                                                   sampling[unit]));
   }
   return made;
 }
