@@ -12,6 +12,8 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
   # As GCC does: products and sums are joined across statements, so that both find the same fits.
   target_compile_options(weft_options INTERFACE -ffp-contract=fast)
+  # GCC's -Wconversion leaves out signs in C++.
+  target_compile_options(weft_options INTERFACE -Wno-sign-conversion)
 endif()
 if(WEFT_SANITIZE)
   set(WEFT_SANITIZERS
@@ -150,8 +152,13 @@ function(weft_test name folder label)
 endfunction()
 
 # weft_benchmark(NAME SOURCES SOURCE... USES libraries...)
+# Built by the target benchmarks, not with the rest.
 function(weft_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_USES} weft_options)
+  if(NOT TARGET benchmarks)
+    add_custom_target(benchmarks)
+  endif()
+  add_dependencies(benchmarks ${name})
 endfunction()
