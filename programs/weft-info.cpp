@@ -6,6 +6,7 @@
 
 #include "MeasurementInput.h"
 #include "ModelArguments.h"
+#include "info/SceneDescription.h"
 #include "weft/core/FileKind.h"
 #include "weft/io/CoordinateMapFile.h"
 #include "weft/io/ReflectanceFieldFile.h"
@@ -64,11 +65,16 @@ weft::Result<Json> describeFile(const weft::Tool& tool, const std::filesystem::p
                                 const weft::BtfOptions& options) {
   Json json;
   Json bytes = Json::object();
-  if (weft::isCoordinateMap(file)) {
+  const weft::FileKind kind = weft::fileKind(file);
+  if (kind == weft::FileKind::Glb || kind == weft::FileKind::Json) {
+    WEFT_TRY(json, weft::describeScene(file));
+    for (const Json& warning : json["warnings"])
+      tool.warn(fmt::format("{}: {}", file.string(), warning.get<std::string>()));
+  } else if (weft::isCoordinateMap(file)) {
     WEFT_TRY(const weft::CoordinateMap map, weft::readCoordinateMap(file));
     json = describe(map);
     bytes["gpu"] = weft::packCoordinates(map).byteCount();
-  } else if (file.extension() == ".exr" || weft::fileKind(file) == weft::FileKind::Exr) {
+  } else if (file.extension() == ".exr" || kind == weft::FileKind::Exr) {
     WEFT_TRY(const weft::ReflectanceField field, weft::readReflectanceField(file));
     json = describe(field);
     bytes["gpu"] = weft::gpuBytes(field);
@@ -82,12 +88,13 @@ weft::Result<Json> describeFile(const weft::Tool& tool, const std::filesystem::p
   return json;
 }
 
-// "model.name  rfnl": one line a value, names joined by dots; lists in brackets.
+// "model.name  rfnl": one line a value, names joined by dots; of a list of objects each by its
+// number, other lists in brackets.
 std::string linesOf(const Json& json, const std::string& prefix) {
   std::string lines;
   for (const auto& [key, value] : json.items()) {
     const std::string name = prefix + key;
-    if (value.is_object())
+    if (value.is_object() || (value.is_array() && !value.empty() && value[0].is_object()))
       lines += linesOf(value, name + ".");
     else
       lines += fmt::format("{:<24} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
@@ -98,19 +105,22 @@ std::string linesOf(const Json& json, const std::string& prefix) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  weft::Tool tool({"weft-info",
-                   "Says what a measured BTF, a fitted reflectance field or a coordinate map is.",
-                   "weft-info wool.rf.exr --json -"});
+  weft::Tool tool(
+      {"weft-info",
+       "Says what a measured BTF, a fitted reflectance field, a coordinate map or a glTF scene is.",
+       "weft-info wool.rf.exr --json -"});
   std::filesystem::path file;
   weft::BtfOptions options;
   tool.options()
-      .add_option("FILE", file, fmt::format("{}, or a .rf.exr or .coords.exr", weft::kMeasurementHelp))
+      .add_option("FILE", file,
+                  fmt::format("{}, or a .rf.exr, .coords.exr, .gltf or .glb", weft::kMeasurementHelp))
       ->required();
   weft::addMeasurementOptions(tool.options(), options);
   return tool.run(argc, argv, [&]() -> weft::Result<weft::ExitCode> {
-    WEFT_TRY(const Json json, describeFile(tool, file, options));
-    tool.print(linesOf(json, ""));
+    WEFT_TRY(Json json, describeFile(tool, file, options));
     WEFT_TRY_VOID(tool.writeJson(json));
+    json.erase("warnings");  // told already
+    tool.print(linesOf(json, ""));
     return weft::ExitCode::Done;
   });
 }

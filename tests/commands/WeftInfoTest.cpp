@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "GltfText.h"
 #include "ProgramRun.h"
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
@@ -145,6 +146,29 @@ TEST(WeftInfo, DescribesACoordinateMap) {
   EXPECT_EQ(info["width"], 3);
   EXPECT_EQ(info["sample"], json({{"width", 16}, {"height", 8}}));
   EXPECT_EQ(info["bytes"]["gpu"], 12);
+}
+
+TEST(WeftInfo, DescribesAScene) {
+  const fs::path file = test::testFolder() / "scene.gltf";
+  std::string scene = test::planeGltf(
+      R"({"name":"seat","extensions":{"WEFT_materials_btf":{"uri":"none.rf.exr","scale":[12,12]}}})");
+  scene = test::replaced(scene, R"({"mesh":0,)", R"({"scale":[2,2,2],"camera":0,"mesh":0,)");
+  scene.insert(1,
+               R"("cameras":[{"name":"front","type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)");
+  std::ofstream(file) << scene;
+  const ProgramRun run = runProgram("weft-info", {file.string(), "--json", "-"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json info = json::parse(run.out);
+  EXPECT_EQ(info.at("kind"), "scene");
+  EXPECT_EQ(info.at("bounds"), json::parse(R"({"min":[-1.0,-1.0,0.0],"max":[1.0,1.0,0.0]})"));
+  EXPECT_EQ(info.at("cameras"), json::parse(R"([{"name":"front","projection":"perspective"}])"));
+  EXPECT_EQ(info.at("materials"), json::parse(R"([{"name":"seat","triangles":2,"area":4.0,
+      "texture_coordinates":{"u":[0.0,1.0],"v":[0.0,1.0]},"unit_length":2.0,
+      "btf":{"uri":"none.rf.exr","scale":[12,12]}}])"));
+  EXPECT_EQ(info.at("lights"), 0);
+  EXPECT_THAT(runProgram("weft-info", {file.string()}).out, HasSubstr("materials.0.name         seat\n"));
+  std::ofstream(file) << R"({"asset":{"version":"2.0"}})";
+  expectRefused(runProgram("weft-info", {file.string()}), "scene.gltf: ");
 }
 
 TEST(WeftInfo, SaysTheEncodingOfTheFile) {

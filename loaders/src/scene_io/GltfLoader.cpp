@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "GltfAccessor.h"
@@ -108,7 +109,7 @@ class SceneReader {
     if (scene_.bounds.empty()) return file_.fail("the scene draws nothing");
     WEFT_TRY_VOID(checkSize());
     setFarPlanes();
-    for (std::string& warning : scene_.warnings) warning = printable(warning);
+    tidyWarnings();
     scene_.data = file_.contents.data;
     WEFT_TRY_VOID(callExtensions());
     return std::move(scene_);
@@ -126,6 +127,15 @@ class SceneReader {
         warn("what " + extension + " says is not shown");
     }
     if (!file_.model.animations.empty() && !options_.time) warn("animations stand still, no time is given");
+  }
+
+  /// As text for people, each once: many meshes may have the same fault.
+  void tidyWarnings() {
+    std::set<std::string> told;
+    std::vector<std::string> tidy;
+    for (const std::string& warning : scene_.warnings)
+      if (std::string text = printable(warning); told.insert(text).second) tidy.push_back(std::move(text));
+    scene_.warnings = std::move(tidy);
   }
 
   Result<void> checkSize() const {

@@ -10,6 +10,7 @@
 #include <glm/ext/scalar_constants.hpp>
 #include <glm/geometric.hpp>
 
+#include "RepetitionCheck.h"
 #include "weft/io/EnvironmentFile.h"
 #include "weft/materials/LambertMaterial.h"
 #include "weft/scene_io/BTFMaterialLoader.h"
@@ -189,6 +190,8 @@ Result<SceneSetup> SceneSetup::create(const SceneOptions& options) {
   WEFT_TRY_VOID(setup.chooseCamera(options));
   if (!options.environment.empty()) WEFT_TRY_VOID(setup.addEnvironment(options));
   setup.chooseLamps(options);
+  for (std::string& warning : repetitionWarnings(*setup.scene_.root, setup.camera_, options))
+    setup.warnings_.push_back(std::move(warning));
   return setup;
 }
 

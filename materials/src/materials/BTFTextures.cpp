@@ -90,6 +90,7 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
     return fail(fmt::format("the field has {} tables of at most {}", tables, bindings::mostTables));
   std::shared_ptr<BTFTextures> made(new BTFTextures);
   made->size_ = {field.width(), field.height()};
+  made->views_ = static_cast<int>(field.description().views.size());
   made->filtersParameters_ = field.model().filtersParameters();
   made->setProgram(FieldProgram::create(field));
   const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());

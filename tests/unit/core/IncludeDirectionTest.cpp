@@ -149,7 +149,8 @@ TEST(IncludeDirection, TheTableNamesEveryLibrary) {
 
 TEST(IncludeDirection, ProgramsThatDrawNothingKnowNoGl) {
   for (const fs::path& file : sourcesBelow(test::sourceFolder() / "programs")) {
-    if (const auto folder = file.parent_path().filename(); folder == "render" || folder == "view") continue;
+    const auto folder = file.parent_path().filename();
+    if (folder == "render" || folder == "view" || folder == "info") continue;
     for (const std::string& include : includesOf(file)) {
       EXPECT_FALSE(isGlHeader(include)) << file << include;
       for (const std::string& library : kLibrariesWithGl)

@@ -34,6 +34,8 @@ class BTFTextures {
 
   /// Texels of the field across and down.
   glm::ivec2 size() const { return size_; }
+  /// Measured views of the field.
+  int views() const { return views_; }
   /// Slots and what belongs into them: all but the program and the uniform block.
   const std::vector<std::pair<unsigned, std::shared_ptr<const Chunk>>>& chunks() const { return chunks_; }
   /// The program, but for what a material chooses.
@@ -52,6 +54,7 @@ class BTFTextures {
   void add(int unit, std::shared_ptr<const Chunk> chunk);
 
   glm::ivec2 size_{};
+  int views_ = 0;
   std::vector<std::pair<unsigned, std::shared_ptr<const Chunk>>> chunks_;
   ShaderSource source_;
   FieldBlock block_;
