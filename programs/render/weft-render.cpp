@@ -26,7 +26,6 @@ namespace {
 
 using namespace weft;
 
-constexpr int kSupersampling = 2;
 constexpr unsigned kMostMesaThreads = 16;  // that draw, beside one or two with other work
 // Linear; 0x28 of 255 in sRGB.
 const glm::vec4 kPictureBackground{0.0212f, 0.0212f, 0.0212f, 1.0f};
@@ -36,6 +35,7 @@ struct Arguments {
   std::filesystem::path output;
   PictureArguments picture;
   std::string show = "all";
+  int samples = 4;  ///< a pixel: a square number
   int turntable = 0;
   int frames = 0;
 };
@@ -137,11 +137,12 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   RenderAction renderer;
   const bool png = arguments.output.extension() == ".png";
   const bool lit = !sceneOptions->environment.empty();
-  const RenderTarget target(kSupersampling * size.width, kSupersampling * size.height,
+  const int side = static_cast<int>(std::lround(std::sqrt(arguments.samples)));
+  const RenderTarget target(side * size.width, side * size.height,
                             // the sun overflows halfs
                             png && !lit ? Precision::Half : Precision::Float);
   if (const auto made = target.prepare(context); !made)
-    return fail(fmt::format("with {0} x {0} samples a pixel, {1}", kSupersampling, made.error().what),
+    return fail(fmt::format("with {0} x {0} samples a pixel, {1}", side, made.error().what),
                 fmt::format("--size {}x{}", size.width, size.height), made.error().hint);
   const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -149,7 +150,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
     WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
     if (const std::size_t more = renderer.statistics().shadowsLeftOut; more > 0 && i == 0)
       warn(fmt::format("{} more lights than eight are to cast shadows, and cast none", more));
-    FloatImage picture = target.read(context, kSupersampling);
+    FloatImage picture = target.read(context, side);
     if (const std::string why = emptiness(renderer.statistics(), picture, options); !why.empty())
       warn(files[i].string() + ": " + why);
     expose(picture, static_cast<float>(arguments.picture.exposure), arguments.picture.toneCurve(png && lit));
@@ -160,6 +161,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
                                 {"output", arguments.output.string()},
                                 {"width", size.width},
                                 {"height", size.height},
+                                {"samples", arguments.samples},
                                 {"views", arguments.scene.views},
                                 {"filter", arguments.scene.filter},
                                 {"materials", setup.scene().materials},
@@ -192,6 +194,11 @@ int main(int argc, char** argv) {
   tool.addOutput("-o,--output", arguments.output, "the picture: .png (sRGB) or .exr (linear float)")
       ->required();
   arguments.picture.addTo(options);
+  options
+      .add_option("--samples", arguments.samples,
+                  "samples a pixel, each shaded: 1, 4, 9 or 16; more make edges and far away texels smoother")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
   options
       .add_option("--show", arguments.show,
                   "what surfaces reflect: all, or its diffuse or specular part alone (a polynomial counts as "

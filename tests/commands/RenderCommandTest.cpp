@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ConstantField.h"
 #include "GltfText.h"
@@ -124,6 +125,24 @@ TEST_F(RenderCommand, AStudioIsTheLightOfWhatHasNone) {
   EXPECT_NE(pictureWith({"--light", "studio", "--light", "3,1,2"}), unlit);
   std::filesystem::remove(output);
   expectBadUsage(render("shape:cloth", {"--light", "studios"}), "--light takes studio, x,y,z");
+}
+
+// Where the edge of the plane crosses a pixel.
+TEST_F(RenderCommand, MoreSamplesHaveMoreShades) {
+  const auto shades = [&](const std::string& samples) {
+    const ProgramRun run = render("shape:plane", {"--samples", samples, "--camera", "0,0,3:0.2,0.1,0"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    const Image picture = test::valueOf(readImage(output));
+    std::set<int> found;
+    for (std::size_t i = 0; i < picture.bytes.size(); i += 3)
+      if (picture.bytes[i] < 120) found.insert(picture.bytes[i]);  // between background and plane
+    return found.size();
+  };
+  EXPECT_EQ(shades("1"), 1u);
+  EXPECT_GT(shades("4"), 1u);
+  EXPECT_GT(shades("16"), shades("4"));
+  std::filesystem::remove(output);
+  expectBadUsage(render("shape:plane", {"--samples", "5"}), "--samples");
 }
 
 TEST_F(RenderCommand, DressesASceneInAReflectanceField) {
