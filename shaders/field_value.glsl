@@ -11,7 +11,7 @@ vec3 notBelow(vec3 direction, float z) {
 // Linear RGB, with or without n.l as it was fitted.
 vec3 modelValue(Texel texel, Layer layer, vec3 light, vec3 view) {
 #ifdef MODEL_GIVES_COLOR
-  return DECODE(evaluateColor(texel, layer, light));
+  return DECODE(evaluateColor(texel, layer, light, view));
 #else
   vec3 value;
   for (int c = 0; c < COLOR_CHANNELS; ++c)

@@ -49,7 +49,7 @@ vec3 hueOf(float red, float blue) {
 }
 
 // As it was fitted, without n.l.
-vec3 evaluateColor(Texel texel, Layer layer, vec3 light) {
+vec3 evaluateColor(Texel texel, Layer layer, vec3 light, vec3 view) {
   vec2 place = lightMapPlace(light, layer.index);
   float y = 0.0;
   int i = 0;

@@ -9,6 +9,7 @@
 
 #include "TestSupport.h"
 #include "weft/core/Direction.h"
+#include "weft/reflectance/LodModel.h"
 #include "weft/reflectance/ModelRegistry.h"
 #include "weft/reflectance/ReflectanceField.h"
 
@@ -60,7 +61,7 @@ inline void roundAsFiltered(FloatImage& shared) {
     }
 }
 
-/// Tables of a model, every number another.
+/// Tables of a model, every number another; of one level where it sums them.
 inline FieldTables unevenTables(const ReflectanceModel& model, int views) {
   constexpr int kMapSize = 5;
   FieldTables tables;
@@ -68,9 +69,10 @@ inline FieldTables unevenTables(const ReflectanceModel& model, int views) {
     const bool isRegistration = table.name == "registration";
     const bool isMap = !isRegistration && table.width == 0;
     const int width = isRegistration ? views : isMap ? kMapSize * views : table.width;
-    const int height = isRegistration ? 1 : isMap ? kMapSize : views;
+    const int height = table.height > 0 ? table.height : isMap ? kMapSize : views;
     tables[table.name] = unevenNumbers(width, height, table.channels, 1, Precision::Half);
   }
+  if (model.summedLevels() > 0) tables.at("mean").at(0, 0, LodModel::Levels) = 1.0f;
   return tables;
 }
 
@@ -88,7 +90,7 @@ inline ReflectanceField unevenField(const ModelDescription& description, int wid
   about.source = "uneven";
   const int layers = valueOf(FieldFormula::create(model, about)).storedLayers();
   FieldLevel level{unevenNumbers(width, height, model->sharedChannels(), 1, precision), {}};
-  if (model->filtersParameters()) roundAsFiltered(level.shared);
+  if (model->filtersParameters() || model->summedLevels() > 0) roundAsFiltered(level.shared);
   if (layers > 0) level.layers = unevenNumbers(width, height, model->layerChannels(), layers, precision);
   return valueOf(ReflectanceField::create(model, about, {level},
                                           unevenTables(*model, static_cast<int>(about.views.size()))));

@@ -130,7 +130,7 @@ struct FieldFit::Data {
   PartsFolder folder;
   std::vector<std::unique_ptr<GatheredRows>> gathered;  ///< of each gathering pass
   FittedRows rows;
-  std::optional<ErrorMeter> meter;       ///< in the last pass, unless the views are registered
+  std::optional<ErrorMeter> meter;       ///< in the last pass, where it measuresRows()
   std::vector<glm::ivec2> registration;  ///< a measured view; empty: they are not
   std::size_t pass = 0;
   double secondsReading = 0.0;
@@ -141,6 +141,8 @@ struct FieldFit::Data {
        ReflectanceFieldDescription description_, std::string fingerprint);
 
   bool inLastPass() const { return pass == gathered.size(); }
+  /// Whether the errors of a row are known as soon as it is fitted.
+  bool measuresRows() const { return registration.empty() && model->summedLevels() == 0; }
   bool isStopped() const { return options.stopped && options.stopped(); }
   PassRows& passRows() { return inLastPass() ? static_cast<PassRows&>(rows) : *gathered[pass]; }
   Result<void> beginPass();
@@ -240,8 +242,9 @@ void FieldFit::Data::doBlock(const SampleWindow& samples, RowRange block, RowSav
 
 // Run after run, so that sums of floats do not depend on threads.
 void FieldFit::Data::gatherRow(const SampledRow& row) {
-  for (int number = 0; number < TexelRun::runsIn(crop.width); ++number) {
-    TexelRun run(row, number);
+  const int length = fitter->texelsAtOnce();
+  for (int number = 0; number < TexelRun::runsIn(crop.width, length); ++number) {
+    TexelRun run(row, number, length);
     fitter->gather(static_cast<int>(pass), run, gathered[pass]->of(row.y));
   }
 }
@@ -254,7 +257,7 @@ void FieldFit::Data::fitRow(const SampledRow& row) {
     fitter->fit(run, parameters);
     if (options.precision == Precision::Half) parameters.roundToHalf();
     rows.put(run.x(), run.y(), parameters);
-    if (registration.empty()) meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
+    if (measuresRows()) meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
   });
 }
 
@@ -332,7 +335,7 @@ Result<FitResult> FieldFit::finish() {
   }
   std::vector<FieldLevel> levels =
       data.fitter->levels({std::move(data.rows.shared), std::move(data.rows.layers)});
-  if (!data.registration.empty()) WEFT_TRY_VOID(data.measureErrors(levels));
+  if (!data.measuresRows()) WEFT_TRY_VOID(data.measureErrors(levels));
   const FitErrors errors = summarize(data.rows.errors, &SplitErrors::fitted);
   std::optional<FitErrors> heldOut;
   if (data.pairs.holdOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
@@ -343,7 +346,8 @@ Result<FitResult> FieldFit::finish() {
                    data.secondsFitting};
 }
 
-// What texels of a registered surface show at other places is known when all have been fitted.
+// What texels of a registered surface show at other places is known when all have been fitted, as
+// are coarser levels that they are summed with.
 Result<void> FieldFit::Data::measureErrors(const std::vector<FieldLevel>& levels) {
   WEFT_TRY(const ReflectanceField field,
            ReflectanceField::create(model, description, levels, fitter->tables()));

@@ -5,6 +5,7 @@
 #include "TexelFieldFitter.h"
 #include "models/BumpFitter.h"
 #include "models/LafFitter.h"
+#include "models/LodFitter.h"
 #include "models/LoomFitter.h"
 #include "models/RfnlFitter.h"
 #include "models/RfpFitter.h"
@@ -22,6 +23,7 @@ FitterRegistry FitterRegistry::builtin() {
   registry.add("slaf", LafFitter::create);
   registry.add("bump", BumpFitter::create);
   registry.add("loom", LoomFitter::create);
+  registry.add("lod", LodFitter::create);
   return registry;
 }
 

@@ -80,6 +80,9 @@ void BTFMaterial::setProgram() {
     source.includeAliases["where.glsl"] = "where_filtered.glsl";
     if (map_) source.includeAliases["fetch.glsl"] = "fetch_mapped.glsl";
     if (!isBilinear) source.defines.emplace_back("NEAREST_TEXEL", "");
+  } else if (textures_->sumsLevels()) {
+    source.includeAliases["where.glsl"] = "where_levels.glsl";
+    if (!isBilinear) source.defines.emplace_back("NEAREST_TEXEL", "");
   } else {
     source.includeAliases["where.glsl"] = isBilinear ? "where_bilinear.glsl" : "where_texel.glsl";
   }

@@ -36,7 +36,7 @@ Images packed(const ReflectanceField& field, bool prepared) {
 // How the images are sampled that are not read texel by texel.
 std::map<int, TextureOptions> samplingOf(const ReflectanceField& field) {
   std::map<int, TextureOptions> sampling;
-  if (field.model().filtersParameters())
+  if (field.model().filtersParameters() || field.model().summedLevels() > 0)
     for (const int unit : {bindings::sharedParametersUnit, bindings::baseColorsUnit})
       sampling[unit] = {.filter = TextureFilter::Mipmapped, .wrap = TextureWrap::Repeat};
   std::set<std::string> filtered;
@@ -92,6 +92,7 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
   made->size_ = {field.width(), field.height()};
   made->views_ = static_cast<int>(field.description().views.size());
   made->filtersParameters_ = field.model().filtersParameters();
+  made->sumsLevels_ = field.model().summedLevels() > 0;
   made->setProgram(FieldProgram::create(field));
   const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());
   if (prepared) made->source_.defines.emplace_back("ENVIRONMENT_LAYERS", "");

@@ -36,6 +36,21 @@ glm::vec3 notBelow(glm::vec3 direction, float z) {
   return {azimuth * std::sqrt(1.0f - z * z), z};
 }
 
+// What evaluate() of a model is given of a texel.
+std::size_t numbersOfTexel(const ReflectanceModel& model) {
+  const std::size_t numbers = model.sharedChannels().size();
+  const auto levels = static_cast<std::size_t>(std::max(model.summedLevels(), 1));
+  return numbers + (levels - 1) * (numbers - 3);
+}
+
+// Tables have none before they are bound.
+Result<void> checkCommonLayers(const ReflectanceModel& model, int count) {
+  if (count == 0 || model.commonLayer(0).empty()) return {};
+  if (model.commonLayer(count - 1).empty() || !model.commonLayer(count).empty())
+    return fail(fmt::format("{} views are described, the tables are of more or fewer", count));
+  return {};
+}
+
 }  // namespace
 
 Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel> model,
@@ -62,10 +77,11 @@ Result<FieldFormula> FieldFormula::create(std::shared_ptr<const ReflectanceModel
     return fail(fmt::format("{} views are registered and {} are described", registration.deviations.size(),
                             formula.layerCount_));
   formula.layersAreCommon_ = model->layerParameters().empty();
+  WEFT_TRY_VOID(checkCommonLayers(*model, formula.layerCount_));
   if (!model->integratesEnvironments() || description.encoding != Encoding::Linear ||
       description.hasCosine != model->containsCosine())
     formula.quadrature_ = LightQuadrature::create(description.lights);
-  formula.sharedNumbers_ = model->sharedChannels().size();
+  formula.sharedNumbers_ = numbersOfTexel(*model);
   formula.layerNumbers_ = formula.layersAreCommon_ && formula.layerCount_ > 0 ? model->commonLayer(0).size()
                                                                               : model->layerChannels().size();
   formula.model_ = std::move(model);
@@ -117,7 +133,8 @@ void FieldFormula::evaluateLights(std::span<const float> shared, std::span<const
                                   std::span<glm::vec3> values) const {
   WEFT_EXPECT(values.size() == lights.directions.size(), "there is room for a value a light");
   if (!lights.layers.empty()) {
-    model_->evaluateSampled(shared, lights.layers[static_cast<std::size_t>(layer)], values);
+    model_->evaluateSampled(shared, lights.layers[static_cast<std::size_t>(layer)], lights.directions,
+                            notBelow(view, lowestViewZ_), values);
   } else {
     const std::span<const float> numbers = layerOf(storedLayers, layer);
     expectNumbers(shared, numbers);

@@ -16,6 +16,12 @@ void forEachTexel(const FloatImage& image, Function of) {
       for (int x = 0; x < image.width(); ++x) of(x, y, layer);
 }
 
+// A byte a shared number: those that the hardware filters, of levels that stand for themselves or
+// are summed.
+bool areBytes(const ReflectanceModel& model) {
+  return model.filtersParameters() || model.summedLevels() > 0;
+}
+
 int levelsOf(const ReflectanceField& field) {
   return static_cast<int>(field.levels().size());
 }
@@ -106,8 +112,11 @@ FloatImage nodesOf(const LightQuadrature& quadrature) {
 std::map<std::string, std::string> aliasesOf(const FieldFormula& formula) {
   const bool ofLights = formula.model().layerDirections() == LayerDirections::Lights;
   const bool isFiltered = formula.model().filtersParameters();
+  const bool isSummed = formula.model().summedLevels() > 0;
   return {{"model.glsl", formula.model().shaderFile()},
-          {"fetch.glsl", isFiltered ? "fetch_filtered.glsl" : "fetch_texel.glsl"},
+          {"fetch.glsl", isSummed     ? "fetch_levels.glsl"
+                         : isFiltered ? "fetch_filtered.glsl"
+                                      : "fetch_texel.glsl"},
           {"shade.glsl", ofLights ? "shade_lights.glsl" : "shade_views.glsl"},
           {"surroundings.glsl",
            formula.integratesEnvironments() ? "surroundings_formula.glsl" : "surroundings_quadrature.glsl"}};
@@ -177,7 +186,7 @@ TextureImage packFilteredNumbers(std::initializer_list<std::span<const FieldLeve
 
 FieldTextures FieldTextures::create(const ReflectanceField& field, bool preparedForEnvironments) {
   const bool isFiltered = field.model().filtersParameters();
-  FieldTextures textures{isFiltered ? packFilteredNumbers({field.levels()}) : packShared(field),
+  FieldTextures textures{areBytes(field.model()) ? packFilteredNumbers({field.levels()}) : packShared(field),
                          packLayers(field, [](std::span<const float> numbers) { return numbers; }),
                          {},
                          isFiltered ? packBaseColors({field.levels()}) : TextureImage()};
@@ -189,7 +198,7 @@ FieldTextures FieldTextures::create(const ReflectanceField& field, bool prepared
 
 int FieldTextures::sharedTexels(const ReflectanceModel& model) {
   const int besideBaseColor = static_cast<int>(model.sharedParameters().size());
-  return ((model.filtersParameters() ? 0 : 3) + besideBaseColor + 3) / 4;
+  return ((areBytes(model) ? 0 : 3) + besideBaseColor + 3) / 4;
 }
 
 int FieldTextures::layerTexels(const ReflectanceModel& model) {
@@ -214,8 +223,8 @@ std::uint64_t gpuBytes(const ReflectanceField& field) {
   const int sharedLayers = model.colorChannels() * FieldTextures::sharedTexels(model);
   std::uint64_t bytes = 0;
   for (const FieldLevel& level : field.levels()) {
-    if (model.filtersParameters())
-      bytes += textureBytes(level.shared, sharedLayers + 1, 4);
+    if (areBytes(model))
+      bytes += textureBytes(level.shared, sharedLayers + (model.filtersParameters() ? 1 : 0), 4);
     else
       bytes += textureBytes(level.shared, sharedLayers, texelBytes(level.shared));
     bytes +=

@@ -104,7 +104,8 @@ Result<std::shared_ptr<const ReflectanceModel>> LoomModel::bind(
 }
 
 std::span<const float> LoomModel::commonLayer(int layer) const {
-  return layers_.empty() ? std::span<const float>() : layers_[static_cast<std::size_t>(layer)];
+  return layer < std::ssize(layers_) ? std::span<const float>(layers_[static_cast<std::size_t>(layer)])
+                                     : std::span<const float>();
 }
 
 std::vector<float> LoomModel::sampledLayer(std::span<const float> layer,
@@ -122,7 +123,7 @@ std::vector<float> LoomModel::sampledLayer(std::span<const float> layer,
 }
 
 void LoomModel::evaluateSampled(std::span<const float> shared, std::span<const float> sampled,
-                                std::span<glm::vec3> colors) const {
+                                std::span<const glm::vec3>, glm::vec3, std::span<glm::vec3> colors) const {
   WEFT_EXPECT(std::ssize(shared) == 3 + components(), "a texel has as many numbers as its model");
   WEFT_EXPECT(sampled.size() == colors.size() * static_cast<std::size_t>(mapChannels()),
               "a sampled layer has numbers for every light");
@@ -137,9 +138,9 @@ glm::vec3 LoomModel::evaluateColor(std::span<const float> shared, std::span<cons
 }
 
 void LoomModel::evaluateColors(std::span<const float> shared, std::span<const float> layer,
-                               std::span<const glm::vec3> lights, glm::vec3,
+                               std::span<const glm::vec3> lights, glm::vec3 view,
                                std::span<glm::vec3> colors) const {
-  evaluateSampled(shared, sampledLayer(layer, lights), colors);
+  evaluateSampled(shared, sampledLayer(layer, lights), lights, view, colors);
 }
 
 // Light of each colour is integrated for itself: what a component reflects of red light is red.

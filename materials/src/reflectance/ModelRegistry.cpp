@@ -7,6 +7,7 @@
 
 #include "weft/reflectance/BumpModel.h"
 #include "weft/reflectance/LafModel.h"
+#include "weft/reflectance/LodModel.h"
 #include "weft/reflectance/LoomModel.h"
 #include "weft/reflectance/RfnlModel.h"
 #include "weft/reflectance/RfpModel.h"
@@ -18,6 +19,7 @@ ModelRegistry ModelRegistry::builtin() {
   for (const auto& types : {RfpModel::types(), RfnlModel::types(), LafModel::types(), BumpModel::types()})
     for (const ModelType& type : types) registry.add(type);
   registry.add(LoomModel::type());
+  registry.add(LodModel::type());
   return registry;
 }
 

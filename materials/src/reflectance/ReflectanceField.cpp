@@ -9,6 +9,7 @@
 #include <span>
 
 #include "weft/core/Contract.h"
+#include "weft/reflectance/LevelSum.h"
 
 namespace weft {
 namespace {
@@ -66,6 +67,8 @@ Result<ReflectanceField> ReflectanceField::create(std::shared_ptr<const Reflecta
   if (levels.empty()) return fail("a field has at least one level");
   for (const FieldLevel& level : levels) WEFT_TRY_VOID(checkLevel(level, formula));
   WEFT_TRY_VOID(checkSides(levels));
+  if (const int summed = formula.model().summedLevels(); summed > 0 && summed != std::ssize(levels))
+    return fail(fmt::format("the model sums {} levels and the field has {}", summed, levels.size()));
 
   ReflectanceField field(std::move(formula));
   field.description_ = std::move(description);
@@ -137,6 +140,10 @@ std::span<const float> filteredTexel(const FloatImage& shared, const CoordinateM
 
 std::span<const float> ReflectanceField::sharedFor(int x, int y, const DirectionWeights& layers,
                                                    glm::vec3 view, std::vector<float>& filtered) const {
+  if (model().summedLevels() > 0) {
+    numbersOfLevels(levels_, {x, y}, 0.0f, filtered);
+    return filtered;
+  }
   if (model().registration().empty()) return shared().texel(x, y);
   const glm::vec2 shift = formula_.shift(layers, view);
   return filteredTexel(shared(), glm::vec2(x, y) + glm::vec2(shift.x, -shift.y), filtered);

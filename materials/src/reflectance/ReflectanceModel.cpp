@@ -38,7 +38,7 @@ const Registration& ReflectanceModel::registration() const {
 }
 
 void ReflectanceModel::evaluateSampled(std::span<const float>, std::span<const float>,
-                                       std::span<glm::vec3>) const {
+                                       std::span<const glm::vec3>, glm::vec3, std::span<glm::vec3>) const {
   contractBroken(__FILE__, __LINE__, "the model samples its layers");
 }
 

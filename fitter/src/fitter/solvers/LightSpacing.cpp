@@ -15,7 +15,9 @@ float sharpestExponent(std::span<const glm::vec3> lights) {
     smallestCosine = std::min(smallestCosine, nearest);
   }
   const float gap = std::acos(std::clamp(smallestCosine, -1.0f, 1.0f));
-  return std::clamp(std::log(0.5f) / std::log(std::cos(0.5f * gap)), 2.0f, 1000.0f);
+  // Of one light alone the gap is the whole sphere, whose half's cosine may round to below 0.
+  const float cosine = std::max(std::cos(0.5f * gap), 1e-6f);
+  return std::clamp(std::log(0.5f) / std::log(cosine), 2.0f, 1000.0f);
 }
 
 }  // namespace weft

@@ -44,6 +44,8 @@ class BTFTextures {
   const FieldBlock& block() const { return block_; }
   /// Whether the hardware filters the parameters, over all levels.
   bool filtersParameters() const { return filtersParameters_; }
+  /// Whether its model sums levels (ReflectanceModel::summedLevels()).
+  bool sumsLevels() const { return sumsLevels_; }
   /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula
   /// for it.
   int environmentLights() const { return environmentLights_; }
@@ -60,6 +62,7 @@ class BTFTextures {
   FieldBlock block_;
   int environmentLights_ = 0;
   bool filtersParameters_ = false;
+  bool sumsLevels_ = false;
 };
 
 }  // namespace weft

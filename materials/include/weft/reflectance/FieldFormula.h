@@ -64,7 +64,8 @@ class FieldFormula {
   float lowestViewZ() const { return lowestViewZ_; }
 
   /// The linear value, n.l included, that one layer's numbers give; 0 for light below the horizon.
-  /// Here and below, spans are as long as the model's lists of channels.
+  /// Here and below, spans are as long as the model's lists of channels; where it sums levels,
+  /// `shared` has the numbers of all (LevelSum.h).
   ///
   /// Without the cosine in the model this is RF l.z. With it, lights below the outermost measured
   /// ring are evaluated on that ring and scaled by l.z / lowestLightZ(), so that the fit is never

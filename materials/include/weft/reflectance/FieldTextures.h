@@ -25,6 +25,8 @@ namespace weft {
 ///
 /// Where the hardware filters a model's parameters, its shared numbers are bytes, from the first
 /// component on, and base colours a texture of their own: shaders/fetch_filtered.glsl reads them.
+/// Where a model sums levels, its shared numbers are such bytes, and there are no base colours:
+/// shaders/fetch_levels.glsl.
 struct FieldTextures {
   TextureImage shared;
   TextureImage layers;  ///< empty for a model without layers

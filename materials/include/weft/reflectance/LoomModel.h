@@ -49,6 +49,7 @@ class LoomModel : public ReflectanceModel {
   std::vector<float> sampledLayer(std::span<const float> layer,
                                   std::span<const glm::vec3> lights) const override;
   void evaluateSampled(std::span<const float> shared, std::span<const float> sampled,
+                       std::span<const glm::vec3> lights, glm::vec3 view,
                        std::span<glm::vec3> colors) const override;
 
   bool integratesEnvironments() const override { return true; }

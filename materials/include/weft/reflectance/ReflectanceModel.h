@@ -49,6 +49,10 @@ class ReflectanceModel {
   /// Whether light is linear in the shared numbers, so that they may be filtered between texels and
   /// averaged for coarser levels. They lie in -1..1 then, and a GPU keeps a byte of each.
   virtual bool filtersParameters() const { return false; }
+  /// How many levels a texel's value is the sum of, once bound: evaluate() is given a base colour,
+  /// then the shared numbers of all of them, the finest first (LevelSum.h). These lie in -1..1, and
+  /// a GPU keeps a byte of each. 0: the texels of each level stand for themselves.
+  virtual int summedLevels() const { return 0; }
   /// The tables that it evaluates with.
   virtual std::vector<ModelTable> tables() const { return {}; }
   /// This model with its tables, which are all there and of the declared shapes (boundModel()).
@@ -57,7 +61,7 @@ class ReflectanceModel {
   virtual Result<std::shared_ptr<const ReflectanceModel>> bind(
       std::shared_ptr<const FieldTables> tables) const;
   /// The numbers of a layer that all texels share, for models without layerParameters(), once
-  /// bound; empty where there are none.
+  /// bound; empty where there is no such layer.
   virtual std::span<const float> commonLayer(int) const { return {}; }
   /// How its texels move with the view, once bound.
   virtual const Registration& registration() const;
@@ -75,8 +79,9 @@ class ReflectanceModel {
   virtual std::vector<float> sampledLayer(std::span<const float>, std::span<const glm::vec3>) const {
     return {};
   }
-  /// evaluateColors() with what sampledLayer() gave.
+  /// evaluateColors() with what sampledLayer() gave for the lights.
   virtual void evaluateSampled(std::span<const float> shared, std::span<const float> sampled,
+                               std::span<const glm::vec3> lights, glm::vec3 view,
                                std::span<glm::vec3> colors) const;
   /// Whether underEnvironment() and the GLSL function of the same name exist. Fields of other
   /// models are summed over their measured lights (LightQuadrature).
