@@ -20,7 +20,7 @@ if [[ ${1:-} == large ]]; then
   echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for material in wool corduroy; do
     [[ -f $material-256.zip ]] || /usr/bin/python3 "$data/decode.py" "$data/components/$material" "$material-256.zip" >/dev/null
-    for model in "loom" "rfp" "rfnl --lobes 2" "slaf --lobes 4" "laf --lobes 4"; do
+    for model in "loom" "lod" "rfp" "rfnl --lobes 2" "slaf --lobes 4" "laf --lobes 4"; do
       fit $material-256.zip "$material-256-${model%% *}" --model $model
       python3 - "$material" "$model" "$material-256-${model%% *}" <<'END'
 import json, sys
@@ -40,7 +40,7 @@ END
   exit
 fi
 
-models=("loom" "rfnl --lobes 2 --rho-d per-view" "rfnl --lobes 2" "slaf --lobes 4" "rfp" "laf --lobes 4" "bump" "lfnl --lobes 2" "lfp")
+models=("loom" "lod" "rfnl --lobes 2 --rho-d per-view" "rfnl --lobes 2" "slaf --lobes 4" "rfp" "laf --lobes 4" "bump" "lfnl --lobes 2" "lfp")
 name() { tr -d ' ' <<<"$*"; }
 for material in WOOL64 CORDUROY64; do
   for model in "${models[@]}"; do

@@ -1,6 +1,8 @@
 // Where a field is looked up whose levels are summed: one place of the sample, and from its size on
 // the screen the level of detail: 0 where a texel covers a pixel or more, 1 where two a side do.
 
+ivec2 fieldSize();
+
 const int placeCount = 1;
 
 struct Place {

@@ -83,7 +83,8 @@ TEST_F(MappedMaterialTest, TexelsAreThoseOfTheMap) {
   for (const auto& [model, sample] : {std::pair("rfnl", glm::ivec2(8, 8)),
                                       {"lfp", glm::ivec2(300, 2)},
                                       {"loom", glm::ivec2(8, 6)},
-                                      {"loom", glm::ivec2(300, 2)}}) {
+                                      {"loom", glm::ivec2(300, 2)},
+                                      {"lod", glm::ivec2(8, 6)}}) {
     const ReflectanceField field = unevenField({.name = model}, sample.x, sample.y);
     const CoordinateMap map = patchMap({16, 32}, sample, 3);
     const auto shown = material(field, map);
