@@ -202,8 +202,8 @@ Result<ExitCode> compare(const Tool& tool, const Arguments& arguments) {
   WEFT_TRY(const std::vector<Measure> measures, measuresOf(tool, arguments, pair));
   const Measure& bounded = measures.front();
   if (!arguments.output.empty()) WEFT_TRY_VOID(writeErrors(arguments.output, bounded.errors));
-  const bool isMet = holds(tool, bounded, "max", bounded.max, arguments.max) &
-                     holds(tool, bounded, "mean", bounded.mean, arguments.mean);
+  const bool isMaxMet = holds(tool, bounded, "max", bounded.max, arguments.max);
+  const bool isMet = holds(tool, bounded, "mean", bounded.mean, arguments.mean) && isMaxMet;
 
   const int width = pair.values[0].width(), height = pair.values[0].height();
   Json json{{"a", arguments.files[0].string()},
