@@ -44,7 +44,10 @@ Polygon withinPicture(Polygon polygon) {
     for (const double side : {-1.0, 1.0}) {
       glm::dvec4 plane(0.0, 0.0, 0.0, 1.0);
       plane[axis] = side;
-      polygon = clipped(polygon, plane);
+      // Most triangles lie wholly on one side.
+      const auto isInside = [&](const SurfacePoint& point) { return glm::dot(plane, point.clip) >= 0.0; };
+      if (std::ranges::none_of(polygon, isInside)) return {};
+      if (!std::ranges::all_of(polygon, isInside)) polygon = clipped(polygon, plane);
     }
   return polygon;
 }
