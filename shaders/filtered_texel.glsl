@@ -9,7 +9,7 @@ layout(binding = baseColorsUnit) uniform sampler2DArray baseColors;
 
 struct Texel {
   vec3 baseColor;
-  int count;  // of the weights that are needed
+  int count;  // of the fours of weights that are needed; the others are undefined
   vec4 weights[SHARED_TEXELS];
 };
 

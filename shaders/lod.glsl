@@ -1,4 +1,5 @@
 // The model `lod`: LodModel.h has the formula.
+#include "light_maps.glsl"
 
 // a square a view, side by side, and a row of these a level
 layout(binding = TABLE_eigen_brdfs) uniform sampler2DArray eigenBrdfs;
@@ -11,12 +12,6 @@ vec3 meanOf(vec3 light, vec3 view) {
   float highlight = pow(max(normalize(light + view).z, 1e-6), phong.w);
   return vec3(phong.x + phong.y * light.z + phong.z * highlight,
               texelFetch(meanNumbers, ivec3(0, 0, 1), 0).xy);
-}
-
-// LightMap.h: the place of a light in a view's map of the finest level, in texels.
-vec2 lightMapPlace(vec3 light, int view, float side) {
-  vec2 disc = clamp(light.xy * inversesqrt(1.0 + max(light.z, 0.0)), -1.0, 1.0);
-  return (0.5 * disc + 0.5) * (side - 1.0) + 0.5 + vec2(float(view) * side, 0.0);
 }
 
 // Adds what four components give to Y, Cb and Cr: a multiple of four are Y's, an even number Cb's.
@@ -39,7 +34,8 @@ vec3 rgbOf(vec3 yCbCr) {
 vec3 evaluateColor(Texel texel, Layer layer, vec3 light, vec3 view) {
   vec2 size = vec2(textureSize(eigenBrdfs, 0).xy);
   float side = size.y / float(LEVELS);
-  vec2 first = lightMapPlace(light, layer.index, side);
+  // in the finest level's map
+  vec2 first = lightMapTexel(light, side) + vec2(float(layer.index) * side, 0.0);
   vec3 sum = meanOf(light, view);
   int level = texel.first;
   do {
@@ -62,26 +58,20 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
   fetchMoments(frame);
 }
 
-// Mesa's software renderer takes longer for texelFetch().
-vec4 factorsAt(sampler2DArray polynomials, int term, int row, int channels) {
-  vec2 place = (vec2(term, row) + 0.5) / vec2(textureSize(polynomials, 0).xy);
-  return textureLod(polynomials, vec3(place, channels), 0.0);
-}
-
 vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
   int views = textureSize(meanPolynomials, 0).y;
   vec2 chroma = texelFetch(meanNumbers, ivec3(0, 0, 1), 0).xy;
   vec3 color = vec3(0.0);
   for (int term = 0; term < 6; ++term) {
     // Y, Cb, Cr; the last term is 1
-    vec3 factors = vec3(factorsAt(meanPolynomials, term, layer.index, 0).x,
+    vec3 factors = vec3(polynomialTexel(meanPolynomials, term, layer.index, 0).x,
                         term == 5 ? chroma : vec2(0.0));
     int level = texel.first;
     do {
       int row = level * views + layer.index;
       for (int i = 0; i < SHARED_TEXELS; ++i)
         addProducts(factors, texel.weights[level * SHARED_TEXELS + i] *
-                                 factorsAt(lightPolynomials, term, row, i), i);
+                                 polynomialTexel(lightPolynomials, term, row, i), i);
     } while (++level < LEVELS);
     color += rgbOf(factors) * frame.moments[term];
   }

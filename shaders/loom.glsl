@@ -1,4 +1,5 @@
 // The model `loom`: LoomModel.h has the formula.
+#include "light_maps.glsl"
 
 // a square a view, side by side
 layout(binding = TABLE_light_maps) uniform sampler2DArray lightMaps;
@@ -35,12 +36,10 @@ Place seenAt(Place place, LayerWeights layers, vec3 view) {
   return place;
 }
 
-// LightMap.h: the place of a light in a view's map.
+// The place of a light in a view's map.
 vec2 lightMapPlace(vec3 light, int view) {
   vec2 size = vec2(textureSize(lightMaps, 0).xy);
-  vec2 disc = clamp(light.xy * inversesqrt(1.0 + max(light.z, 0.0)), -1.0, 1.0);
-  vec2 place = (0.5 * disc + 0.5) * (size.y - 1.0) + 0.5;
-  return vec2(place.x + float(view) * size.y, place.y) / size;
+  return (lightMapTexel(light, size.y) + vec2(float(view) * size.y, 0.0)) / size;
 }
 
 // What hue adds to a colour whose luminance stays.
@@ -70,21 +69,16 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
   fetchMoments(frame);
 }
 
-// What a term of the light contributes to four channels of the maps.
-vec4 factorsOf(int term, int view, int channels) {
-  // Mesa's software renderer takes longer for texelFetch().
-  vec2 place = (vec2(term, view) + 0.5) / vec2(textureSize(lightPolynomials, 0).xy);
-  return textureLod(lightPolynomials, vec3(place, channels), 0.0);
-}
-
 vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
   vec3 color = vec3(0.0);
   for (int term = 0; term < 6; ++term) {
-    int components = term < 3 ? min(QUADRATIC, COMPONENTS) : COMPONENTS;
+    int count = term < 3 ? min(QUADRATIC / 4, texel.count) : texel.count;
     float y = 0.0;
-    for (int i = 0; i < components / 4; ++i)
-      y += dot(texel.weights[i], factorsOf(term, layer.index, i));
-    vec4 hue = factorsOf(term, layer.index, COMPONENTS / 4);
+    int i = 0;
+    do {
+      y += dot(texel.weights[i], polynomialTexel(lightPolynomials, term, layer.index, i));
+    } while (++i < count);
+    vec4 hue = polynomialTexel(lightPolynomials, term, layer.index, COMPONENTS / 4);
     float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
     color += (y * texel.baseColor + hueOf(red, blue)) * frame.moments[term];
   }
