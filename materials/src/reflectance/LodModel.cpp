@@ -69,13 +69,6 @@ void addSums(const float* weights, const float* sampled, std::size_t ofY, std::s
   }
 }
 
-float phong(const float* mean, glm::vec3 light, glm::vec3 view) {
-  const glm::vec3 half = light + view;
-  const float cosine = std::max(half.z, 0.0f) / std::max(glm::length(half), 1e-6f);
-  return mean[LodModel::Ambient] + mean[LodModel::Diffuse] * light.z +
-         mean[LodModel::Specular] * std::pow(cosine, mean[LodModel::Exponent]);
-}
-
 }  // namespace
 
 glm::vec3 yCbCrFromRgb(glm::vec3 rgb) {
@@ -126,12 +119,14 @@ Result<std::shared_ptr<const ReflectanceModel>> LodModel::bind(
     std::shared_ptr<const FieldTables> tables) const {
   const FloatImage& maps = tables->at("eigen_brdfs");
   auto bound = std::make_shared<LodModel>(options());
-  std::ranges::copy(tables->at("mean").texel(0, 0), bound->mean_);
-  const float levels = bound->mean_[Levels];
+  const std::span<const float> mean = tables->at("mean").texel(0, 0);
+  bound->mean_ = {mean[Ambient], mean[Diffuse], mean[Specular], mean[Exponent]};
+  bound->meanChroma_ = {mean[MeanCb], mean[MeanCr]};
+  const float levels = mean[Levels];
   if (!(levels >= 1.0f && levels <= kMostLevels && levels == std::floor(levels)))
     return fail(fmt::format("a pyramid of {} levels", levels));
-  if (!(bound->mean_[Exponent] >= 0.0f))
-    return fail(fmt::format("a mean with the exponent {}", bound->mean_[Exponent]));
+  if (!(bound->mean_.exponent >= 0.0f))
+    return fail(fmt::format("a mean with the exponent {}", bound->mean_.exponent));
   bound->levels_ = static_cast<int>(levels);
   bound->mapSize_ = maps.height() / bound->levels_;
   const int size = bound->mapSize_;
@@ -187,8 +182,7 @@ void LodModel::evaluateSampled(std::span<const float> shared, std::span<const fl
               "a sampled layer has numbers for every light");
   std::vector<float> weights(all);
   forEachNumber(*this, [&](std::size_t from, std::size_t to) { weights[to] = shared[3 + from]; });
-  for (std::size_t i = 0; i < colors.size(); ++i)
-    colors[i] = {phong(mean_, lights[i], view), mean_[MeanCb], mean_[MeanCr]};
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = {mean_.value(lights[i], view), meanChroma_};
   addSums(weights.data(), sampled.data(), levels * static_cast<std::size_t>(components()),
           levels * static_cast<std::size_t>(chroma()), colors);
   for (glm::vec3& color : colors) color = glm::max(rgbFromYCbCr(color), 0.0f);
@@ -218,8 +212,7 @@ glm::vec3 LodModel::colorUnderEnvironment(std::span<const float> shared, std::sp
   glm::vec3 color(0.0f);
   for (std::size_t term = 0; term < kTerms; ++term) {
     // Y, Cb, Cr; the last term is 1
-    const bool isLast = term + 1 == kTerms;
-    glm::vec3 factors(ofMean[term], isLast ? mean_[MeanCb] : 0.0f, isLast ? mean_[MeanCr] : 0.0f);
+    glm::vec3 factors(ofMean[term], term + 1 == kTerms ? meanChroma_ : glm::vec2(0.0f));
     for (std::size_t level = 0; level < levels; ++level)
       for (int c = 0; c < 3; ++c) {
         const ChannelRange range = channelRanges(*this)[static_cast<std::size_t>(c)];

@@ -35,14 +35,6 @@ Eigen::Map<const Eigen::MatrixXf, 0, Eigen::Stride<1, Eigen::Dynamic>> coordinat
           {1, static_cast<Eigen::Index>(image.numbers)}};
 }
 
-// `[term][number]` as a row.
-void putPolynomials(const std::vector<float>& polynomials, int row, FloatImage& table) {
-  const auto numbers = static_cast<std::size_t>(table.channelCount());
-  for (int term = 0; term < table.width(); ++term)
-    std::copy_n(polynomials.data() + static_cast<std::size_t>(term) * numbers, numbers,
-                table.texel(term, row).begin());
-}
-
 }  // namespace
 
 Result<std::unique_ptr<FieldFitter>> LodFitter::create(const FitProblem& problem) {
@@ -149,7 +141,7 @@ void LodFitter::findMeans(std::span<const std::vector<double>> ofRows) {
   for (std::size_t pair = 0; pair < pairs(); ++pair) {
     const glm::vec3 view = problem_.views[pair / problem_.lights.size()];
     const glm::vec3 light = problem_.lights[pair % problem_.lights.size()];
-    channels_[0].mean.push_back(cosineOf(pair) * valueOf(phong_, light, view));
+    channels_[0].mean.push_back(cosineOf(pair) * phong_.value(light, view));
     for (std::size_t c = 1; c < 3; ++c) channels_[c].mean.push_back(cosineOf(pair) * chroma_[c - 1]);
   }
 }
@@ -260,7 +252,10 @@ void LodFitter::makeTables() {
                     mean.texel(0, 0).begin());
   tables_["mean"] = std::move(mean);
   tables_["eigen_brdfs"] = eigenBrdfTable();
-  tables_["light_polynomials"] = lightPolynomialTable(tables_["eigen_brdfs"]);
+  const FloatImage& maps = tables_["eigen_brdfs"];
+  const auto channels = static_cast<std::size_t>(maps.channelCount());
+  tables_["light_polynomials"] =
+      lightPolynomialTable(maps, static_cast<int>(levels_.size()), channels, channels);
   tables_["mean_polynomials"] = meanPolynomialTable();
 }
 
@@ -291,35 +286,19 @@ FloatImage LodFitter::eigenBrdfTable() const {
   return table;
 }
 
-FloatImage LodFitter::lightPolynomialTable(const FloatImage& maps) const {
-  const int levels = static_cast<int>(levels_.size()), views = static_cast<int>(problem_.views.size());
-  const int size = maps.height() / levels;
-  const auto numbers = static_cast<std::size_t>(maps.channelCount());
-  FloatImage table(LodModel::kTerms, views * levels, maps.channels());
-  tbb::parallel_for(0, views * levels, [&](int row) {
-    std::vector<float> map;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const std::span<const float> texel = maps.texel(row % views * size + x, row / views * size + y);
-        map.insert(map.end(), texel.begin(), texel.end());
-      }
-    putPolynomials(lightPolynomials(map, size, numbers, numbers, numbers), row, table);
-  });
-  table.roundToHalf();
-  return table;
-}
-
 FloatImage LodFitter::meanPolynomialTable() const {
   const LightMaps maps(problem_.lights);
-  FloatImage table(LodModel::kTerms, static_cast<int>(problem_.views.size()), {"Y"});
-  for (int view = 0; view < table.height(); ++view) {
+  const int size = maps.size();
+  FloatImage ofViews(size * static_cast<int>(problem_.views.size()), size, {"Y"});
+  for (int view = 0; view < static_cast<int>(problem_.views.size()); ++view) {
     std::vector<float> values;
     for (const glm::vec3 light : problem_.lights)
-      values.push_back(valueOf(phong_, light, problem_.views[static_cast<std::size_t>(view)]));
-    putPolynomials(lightPolynomials(maps.filled(values, 1), maps.size(), 1, 1, 1), view, table);
+      values.push_back(phong_.value(light, problem_.views[static_cast<std::size_t>(view)]));
+    const std::vector<float> map = maps.filled(values, 1);
+    for (int i = 0; i < size * size; ++i)
+      ofViews.at(view * size + i % size, i / size, 0) = map[static_cast<std::size_t>(i)];
   }
-  table.roundToHalf();
-  return table;
+  return lightPolynomialTable(ofViews, 1, 1, 1);
 }
 
 void LodFitter::fit(TexelRun& texels, RunParameters& parameters) const {

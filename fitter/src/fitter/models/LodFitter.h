@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solvers/LaplacianPyramid.h"
-#include "solvers/PhongMean.h"
+#include "solvers/PhongMeanFit.h"
 #include "solvers/TrainingTexels.h"
 #include "solvers/WeightedLeastSquares.h"
 #include "weft/fitter/FieldFitter.h"
@@ -62,7 +62,6 @@ class LodFitter : public FieldFitter {
                       NumberImage& shown);
   void makeTables();
   FloatImage eigenBrdfTable() const;
-  FloatImage lightPolynomialTable(const FloatImage& maps) const;
   FloatImage meanPolynomialTable() const;
 
   FitProblem problem_;

@@ -1,7 +1,5 @@
 #include "models/LoomFitter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -153,7 +151,8 @@ Result<void> LoomFitter::findComponents(std::span<const std::vector<double>> ofR
   }
   const std::vector<float> hue = fitHue(samples, basis, weights, components_, problem_.weighted);
   tables_["light_maps"] = lightMaps(basis, hue);
-  tables_["light_polynomials"] = lightPolynomialTable(tables_["light_maps"]);
+  tables_["light_polynomials"] =
+      lightPolynomialTable(tables_["light_maps"], 1, LoomModel::kQuadratic, components_);
   tables_["registration"] = registrationTable();
   WEFT_TRY(const auto bound, boundModel(problem_.model, std::make_shared<const FieldTables>(tables_)));
   setTerms(bound);
@@ -201,27 +200,6 @@ FloatImage LoomFitter::lightMaps(std::span<const float> basis, std::span<const f
   }
   image.roundToHalf();
   return image;
-}
-
-FloatImage LoomFitter::lightPolynomialTable(const FloatImage& maps) const {
-  const int size = maps.height(), views = maps.width() / size;
-  const auto channels = static_cast<std::size_t>(maps.channelCount());
-  FloatImage table(LoomModel::kTerms, views, maps.channels());
-  tbb::parallel_for(0, views, [&](int view) {
-    std::vector<float> map;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const std::span<const float> texel = maps.texel(view * size + x, y);
-        map.insert(map.end(), texel.begin(), texel.end());
-      }
-    const std::vector<float> found =
-        lightPolynomials(map, size, channels, LoomModel::kQuadratic, components_);
-    for (int term = 0; term < LoomModel::kTerms; ++term)
-      std::copy_n(found.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(term) * channels),
-                  channels, table.texel(term, view).begin());
-  });
-  table.roundToHalf();
-  return table;
 }
 
 // What the maps give at the measured lights once they are rounded.

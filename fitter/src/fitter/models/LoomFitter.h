@@ -43,7 +43,6 @@ class LoomFitter : public FieldFitter {
   void registerWindow(std::span<const std::vector<double>> ofRows);
   Result<void> findComponents(std::span<const std::vector<double>> ofRows);
   FloatImage registrationTable() const;
-  FloatImage lightPolynomialTable(const FloatImage& maps) const;
   FloatImage lightMaps(std::span<const float> basis, std::span<const float> hue) const;
   void setTerms(std::shared_ptr<const ReflectanceModel> bound);
   std::span<const glm::vec3> valuesOf(const TexelSamples& samples) const;

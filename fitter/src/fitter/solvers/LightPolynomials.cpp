@@ -1,7 +1,10 @@
 #include "solvers/LightPolynomials.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -58,6 +61,27 @@ std::vector<float> lightPolynomials(std::span<const float> map, int size, std::s
           static_cast<float>(isLinear ? linear(term - 3, c) : quadratic(term, c));
   }
   return polynomials;
+}
+
+FloatImage lightPolynomialTable(const FloatImage& maps, int levels, std::size_t firstLinear,
+                                std::size_t endLinear) {
+  const int size = maps.height() / levels, views = maps.width() / size;
+  const auto channels = static_cast<std::size_t>(maps.channelCount());
+  FloatImage table(kTerms, views * levels, maps.channels());
+  tbb::parallel_for(0, views * levels, [&](int row) {
+    std::vector<float> map;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const std::span<const float> texel = maps.texel(row % views * size + x, row / views * size + y);
+        map.insert(map.end(), texel.begin(), texel.end());
+      }
+    const std::vector<float> found = lightPolynomials(map, size, channels, firstLinear, endLinear);
+    for (int term = 0; term < kTerms; ++term)
+      std::copy_n(found.data() + static_cast<std::size_t>(term) * channels, channels,
+                  table.texel(term, row).begin());
+  });
+  table.roundToHalf();
+  return table;
 }
 
 }  // namespace weft

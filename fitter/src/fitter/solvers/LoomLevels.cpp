@@ -4,28 +4,15 @@
 
 #include <algorithm>
 
-#include "weft/reflectance/BoxAverages.h"
+#include "solvers/LaplacianPyramid.h"
 
 namespace weft {
 namespace {
 
-/// Sums of texels on the way to coarser levels: weights, then red, green, blue times weights.
-struct Sums {
-  int width = 0;
-  int height = 0;
-  std::size_t numbers = 0;
-  std::vector<float> values;
-
-  const float* of(int x, int y) const {
-    return values.data() +
-           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-               numbers;
-  }
-};
-
-Sums sumsOf(const FloatImage& shared) {
+// Of texels on the way to coarser levels: weights, then red, green, blue times weights.
+NumberImage sumsOf(const FloatImage& shared) {
   const std::size_t components = static_cast<std::size_t>(shared.channelCount()) - 3;
-  Sums sums{shared.width(), shared.height(), 4 * components, {}};
+  NumberImage sums{shared.width(), shared.height(), 4 * components, {}};
   sums.values.reserve(shared.values().size() * 4);
   for (int y = 0; y < shared.height(); ++y)
     for (int x = 0; x < shared.width(); ++x) {
@@ -34,13 +21,6 @@ Sums sumsOf(const FloatImage& shared) {
         for (std::size_t k = 0; k < components; ++k) sums.values.push_back(factor * texel[3 + k]);
     }
   return sums;
-}
-
-Sums halved(const Sums& fine) {
-  const int width = std::max(fine.width / 2, 1), height = std::max(fine.height / 2, 1);
-  return {width, height, fine.numbers,
-          boxAverages({fine.width, fine.height}, {width, height}, fine.numbers,
-                      [&](int x, int y) { return fine.of(x, y); })};
 }
 
 // How many components a coarse level has: what the others hold averages out over its texels.
@@ -93,7 +73,7 @@ std::vector<FieldLevel> loomLevels(FieldLevel finest, std::span<const double> gr
   const std::vector<std::string> channels = finest.shared.channels();
   const Precision precision = finest.shared.precision();
   const std::size_t components = channels.size() - 3;
-  Sums sums = sumsOf(finest.shared);
+  NumberImage sums = sumsOf(finest.shared);
   std::vector<FieldLevel> levels;
   levels.push_back(std::move(finest));
   while (sums.width > 1 || sums.height > 1) {
@@ -103,7 +83,7 @@ std::vector<FieldLevel> loomLevels(FieldLevel finest, std::span<const double> gr
     tbb::parallel_for(0, sums.height, [&](int y) {
       for (int x = 0; x < sums.width; ++x) {
         const std::span<float> texel = shared.texel(x, y);
-        const float* from = sums.of(x, y);
+        const float* from = sums.at(x, y);
         const glm::vec3 color = roundColor(colorOf(from, gram, components, kept));
         for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = color[c];
         for (std::size_t k = 0; k < kept; ++k) texel[3 + k] = roundWeight(from[k]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "weft/reflectance/ModelRegistry.h"
+#include "weft/reflectance/PhongMean.h"
 
 namespace weft {
 
@@ -19,9 +20,8 @@ class LodModel : public ReflectanceModel {
   static ModelType type();
   explicit LodModel(ModelOptions options) : ReflectanceModel(std::move(options)) {}
 
-  /// The numbers of the mean, `ka`, `kd`, `ks`, `exponent`, `Cb` and `Cr`, and how many levels
-  /// there are.
-  enum Mean { Ambient, Diffuse, Specular, Exponent, MeanCb, MeanCr, Levels, MeanNumbers };
+  /// The numbers of the table `mean`: those of PhongMean, Cb and Cr, and how many levels there are.
+  enum Mean { Ambient, Diffuse, Specular, Exponent, MeanCb, MeanCr, Levels };
   /// Of l: xx, yy, xy, x, y, 1, as `rfp` has.
   static constexpr int kTerms = 6;
   /// The deepest pyramid: of 2^20 texels a side.
@@ -64,7 +64,8 @@ class LodModel : public ReflectanceModel {
  private:
   int levels_ = 1;  // of an unbound one: that there are any
   int mapSize_ = 0;
-  float mean_[MeanNumbers] = {};
+  PhongMean mean_;
+  glm::vec2 meanChroma_{0.0f};
   /// `[level][row][column][component]` of a view's maps, then `[level][term][component]` of their
   /// polynomials and `[term]` of the mean's
   std::vector<std::vector<float>> layers_;

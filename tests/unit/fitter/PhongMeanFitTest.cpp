@@ -1,4 +1,4 @@
-#include "solvers/PhongMean.h"
+#include "solvers/PhongMeanFit.h"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ PhongMean fitOf(const PhongMean& truth, std::span<const glm::vec3> views, std::s
   for (const glm::vec3 view : views)
     for (const glm::vec3 light : lights) {
       cosines.push_back(double{light.z});
-      values.push_back(cosines.back() * double{valueOf(truth, light, view)});
+      values.push_back(cosines.back() * double{truth.value(light, view)});
     }
   const std::vector<double> weights(values.size(), 1.0);
   return fitPhongMean(views, lights, values, weights, cosines, 80.0f);
 }
 
-TEST(PhongMean, IsRecovered) {
+TEST(PhongMeanFit, IsRecovered) {
   const std::vector<glm::vec3> directions = test::ubo2003Sampling();
   const PhongMean truth{0.1f, 0.4f, 0.3f, std::exp(std::log(80.0f) * 20 / 40)};
   const PhongMean found = fitOf(truth, directions, directions);
@@ -31,10 +31,10 @@ TEST(PhongMean, IsRecovered) {
   EXPECT_NEAR(found.exponent, truth.exponent, 1e-2f);
 }
 
-TEST(PhongMean, OfOnePairIsFiniteAndGivesItsValue) {
+TEST(PhongMeanFit, OfOnePairIsFiniteAndGivesItsValue) {
   const std::vector<glm::vec3> pole{{0, 0, 1}};
   const PhongMean found = fitOf({0.2f, 0.3f, 0.1f, 5.0f}, pole, pole);
-  EXPECT_NEAR(valueOf(found, pole[0], pole[0]), 0.6f, 1e-5f);
+  EXPECT_NEAR(found.value(pole[0], pole[0]), 0.6f, 1e-5f);
   EXPECT_EQ(found.exponent, 1.0f);
 }
 

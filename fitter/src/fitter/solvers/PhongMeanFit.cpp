@@ -1,4 +1,4 @@
-#include "solvers/PhongMean.h"
+#include "solvers/PhongMeanFit.h"
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -45,11 +45,6 @@ class MeanProblem {
 };
 
 }  // namespace
-
-float valueOf(const PhongMean& mean, glm::vec3 light, glm::vec3 view) {
-  const float cosine = std::max((light + view).z, 0.0f) / std::max(glm::length(light + view), 1e-6f);
-  return mean.ambient + mean.diffuse * light.z + mean.specular * std::pow(cosine, mean.exponent);
-}
 
 PhongMean fitPhongMean(std::span<const glm::vec3> views, std::span<const glm::vec3> lights,
                        std::span<const double> values, std::span<const double> squaredWeights,
