@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// Writes a `.coords.exr` (docs/file-format.md): channels X and Y, whole numbers, and the sample's
-/// size and name in the header. Written beside its place and renamed.
+/// Writes a `.coords.exr` (docs/coordinate-maps.md): channels X and Y, whole numbers, and the
+/// sample's size and name in the header. Written beside its place and renamed.
 Result<void> writeCoordinateMap(const std::filesystem::path& path, const CoordinateMap& map);
 
 /// Reads it back. Fails, with file and reason, on anything that is not such a file; sizes are
