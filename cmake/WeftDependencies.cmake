@@ -29,6 +29,7 @@ if(WEFT_BUILD_PROGRAMS OR WEFT_BUILD_BENCHMARKS)
   find_package(CLI11 REQUIRED)
 endif()
 if(WEFT_BUILD_PROGRAMS)
+  find_package(Python3 QUIET COMPONENTS Interpreter) # without it there are no man pages
   set(MPI_CXX_SKIP_MPICXX TRUE) # the deprecated C++ interface
   find_package(MPI COMPONENTS CXX) # without it weft-fit runs in one process
 endif()

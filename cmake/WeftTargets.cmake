@@ -104,6 +104,26 @@ function(weft_library name)
   endif()
 endfunction()
 
+# weft_command_page(NAME)
+# The man page of a program, made from its --help, and what completes its options in bash.
+function(weft_command_page name)
+  set(completions ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${PROJECT_SOURCE_DIR}/programs/completion.bash RENAME ${name}
+          DESTINATION ${completions} COMPONENT programs)
+  if(NOT Python3_FOUND)
+    return()
+  endif()
+  set(script ${PROJECT_SOURCE_DIR}/scripts/command-page.py)
+  set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
+  add_custom_command(OUTPUT ${page}.gz
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
+    COMMAND Python3::Interpreter ${script} man $<TARGET_FILE:${name}> > ${page}
+    COMMAND gzip -9nf ${page}
+    DEPENDS ${name} ${script} VERBATIM)
+  add_custom_target(${name}-page ALL DEPENDS ${page}.gz)
+  install(FILES ${page}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+endfunction()
+
 # weft_program(NAME SOURCE libraries...)
 # Installed where it is named weft-something: the others are examples.
 function(weft_program name source)
@@ -125,6 +145,9 @@ function(weft_program name source)
   endif()
   if(WEFT_INSTALL AND name MATCHES "^weft-")
     install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+    if(NOT WEFT_SANITIZERS)
+      weft_command_page(${name})
+    endif()
   endif()
 endfunction()
 
