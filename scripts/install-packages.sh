@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs the Debian 12 packages that building and testing Weft needs. Does nothing where all are there.
-# scripts/install-packages.sh [development]: with it, also what .ci/run and scripts/api.sh need
+# scripts/install-packages.sh [development]: with it, also what .ci/run and scripts/site.sh need
 set -euo pipefail
 
 packages=(
@@ -19,7 +19,7 @@ packages=(
   libglfw3-dev libopenscenegraph-dev xvfb # optional, 120 packages: the samples that embed Weft, and their tests
   assimp-testmodels # optional: glTF files, valid and broken, for the loader's tests
   openexr # exrheader, which must understand our files
-  python3 # scripts/measure.sh
+  python3 # man pages, scripts/measure.sh
 )
 
 if [[ ${1:-} == development ]]; then
@@ -27,6 +27,7 @@ if [[ ${1:-} == development ]]; then
     clang # another compiler's warnings and numbers
     locales # de_DE.UTF-8, where numbers have a comma
     doxygen doxygen-awesome-css # the API reference
+    mkdocs mkdocs-material # the site
   )
 fi
 
