@@ -60,3 +60,7 @@ picture scene stool.glb --material seat=corduroy.rf.exr --material floor=tiles.r
 "$bin/moving-light" corduroy.rf.exr light 12
 for step in 11 1 3; do cp light-$step.png "$images/"; done
 "$bin/own-model" corduroy.zip slope.rf.exr "$images/own-model.png"
+
+echo "docs/gltf.md: materials"
+"$samples/gltf-materials.py" materials.gltf
+picture gltf-materials materials.gltf --env studio --size 880x300

@@ -2,6 +2,8 @@
 // (materials/src/materials/LightFromEnvironment.cpp puts them on their units). Everything is in
 // units of a white surface, which shows 1 in an environment of 1, and without environmentIntensity,
 // by which the sum is multiplied.
+#include "table.glsl"
+
 #ifdef ENVIRONMENT
 
 #include "bindings.glsl"
@@ -34,12 +36,6 @@ vec2 octahedralPlace(vec3 d, float imageSize) {
 vec3 layerOf(sampler3D maps, vec3 d, float layer) {
   vec3 size = vec3(textureSize(maps, 0));
   return textureLod(maps, vec3(octahedralPlace(d, size.x), (layer + 0.5) / size.z), 0.0).rgb;
-}
-
-// Bilinear between values of which the first and last lie at 0 and 1.
-vec3 valueOfTable(sampler2D table, vec2 place) {
-  vec2 size = vec2(textureSize(table, 0));
-  return textureLod(table, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
 #include "lobes.glsl"

@@ -49,6 +49,14 @@ TEST_F(StartSamples, AModelOfOnesOwnIsFittedToWhatWasBakedAndDrawn) {
   EXPECT_NE(info.err.find("unknown model 'slope'"), std::string::npos) << info.err;
 }
 
+TEST_F(StartSamples, TheMaterialsOfGltfAreAllRead) {
+  runScript("gltf-materials.py", {folder / "materials.gltf"});
+  const auto run = test::runProgram("weft-info", {folder / "materials.gltf"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_NE(run.out.find("transmission"), std::string::npos);
+  EXPECT_EQ(run.err, "");
+}
+
 TEST_F(StartSamples, TheStoolHasThreeMaterialsAndMetres) {
   runScript("stool.py", {folder / "stool.glb"});
   const auto run = test::runProgram("weft-info", {folder / "stool.glb"});

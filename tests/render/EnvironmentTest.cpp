@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "EnvironmentReference.h"
+#include "EvenLight.h"
 #include "GlTest.h"
 #include "MemoryBtf.h"
 #include "SomeModels.h"
@@ -273,20 +274,6 @@ FloatImage sumOf(FloatImage a, const FloatImage& b) {
     for (int x = 0; x < a.width(); ++x)
       for (int c = 0; c < 3; ++c) a.at(x, y, c) += b.at(x, y, c);
   return a;
-}
-
-/// The same light from everywhere, which needs no filtering. Its moments are not those of a
-/// surface.
-std::shared_ptr<EnvironmentLight> evenLight() {
-  using P = PrefilteredEnvironment;
-  const auto ones = [](OctahedralMap map, int layers) {
-    FloatImage image(map.imageSize(), map.imageSize(), {"R", "G", "B"}, layers);
-    std::ranges::fill(image.values(), 1.0f);
-    return image;
-  };
-  return makeEnvironmentLight(Environment::constant(glm::vec3(1.0f)),
-                              {ones(P::kLobeMap, P::kLobeLayers), ones(P::kLobeMap, P::kMomentLayers),
-                               ones(P::kGlossyMap, P::kGlossyLayers), 1.0f});
 }
 
 TEST_F(EnvironmentTest, DiffuseAndSpecularAddUpAndPointLightsToo) {

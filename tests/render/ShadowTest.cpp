@@ -97,6 +97,17 @@ class Shadows : public GlTest {
     EXPECT_TRUE(done) << (done ? "" : done.error().what);
     return target.read(context());
   }
+  /// A white floor, seen from below a square of a material that keeps off light from above.
+  FloatImage below(std::shared_ptr<const Material> material) {
+    Node scene;
+    scene.addChild(dressed(white()));
+    scene.addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), {0, 0, 3.0})))
+        ->addChild(dressed(std::move(material)));
+    auto light = std::make_shared<DirectionalLight>(glm::vec3(kPi));
+    light->castsShadow = true;
+    scene.addChild(light);
+    return draw(scene, squareCamera());
+  }
 };
 
 const Camera kCamera = Camera::lookAt({2.5f, 3.5f, 5.0f}, {0.2f, 0.4f, 0.0f});
@@ -222,7 +233,6 @@ std::shared_ptr<const Material> halfOf(AlphaMode mode, float alpha) {
 }
 
 TEST_F(Shadows, AlphaLetsLightThrough) {
-  // Light from above through a square at height 1 on a floor, looked at from below the square.
   struct Case {
     AlphaMode mode;
     float alpha, through;
@@ -231,17 +241,20 @@ TEST_F(Shadows, AlphaLetsLightThrough) {
                            Case{AlphaMode::Mask, 0.8f, 0.0f}, Case{AlphaMode::Blend, 0.5f, 0.5f},
                            Case{AlphaMode::Blend, 0.0f, 1.0f}}) {
     SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(each.mode) << ", alpha " << each.alpha);
-    Node scene;
-    scene.addChild(dressed(white()));
-    scene.addChild(std::make_shared<Transform>(glm::translate(glm::dmat4(1.0), {0, 0, 3.0})))
-        ->addChild(dressed(halfOf(each.mode, each.alpha)));
-    auto light = std::make_shared<DirectionalLight>(glm::vec3(kPi));
-    light->castsShadow = true;
-    scene.addChild(light);
-    const FloatImage drawn = draw(scene, squareCamera());
+    const FloatImage drawn = below(halfOf(each.mode, each.alpha));
     EXPECT_NEAR(drawn.at(kPixelsAcross / 4, kPixelsAcross / 2, 0), 0.0f, 0.02f);
     EXPECT_NEAR(drawn.at(3 * kPixelsAcross / 4, kPixelsAcross / 2, 0), each.through, 0.02f);
   }
+}
+
+TEST_F(Shadows, GlassLetsLightThrough) {
+  PBROptions glass{.baseColor = {1.0f, 0.8f, 0.6f, 1.0f}, .metallic = 0.0f, .transmission = {.factor = 0.6f}};
+  const auto middle = [&] {
+    return below(std::make_shared<PBRMaterial>(glass)).at(kPixelsAcross / 2, kPixelsAcross / 2, 0);
+  };
+  EXPECT_NEAR(middle(), 0.5f, 0.02f) << "0.6 times 0.8, in quarters";
+  glass.metallic = 1.0f;
+  EXPECT_NEAR(middle(), 0.0f, 0.02f);
 }
 
 TEST_F(Shadows, OfEightLightsAtMostAndTheRestIsTold) {

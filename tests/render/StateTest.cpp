@@ -87,7 +87,7 @@ ChunkList samplers() {
 std::vector<ChunkList> allKinds() {
   return {
       programs(),
-      {std::make_shared<BlendChunk>(), std::make_shared<BlendChunk>()},
+      {std::make_shared<BlendChunk>(), std::make_shared<BlendChunk>(BlendKind::Tint)},
       depths(),
       rasters(),
       {std::make_shared<PolygonOffsetChunk>(-1.0f, -2.0f), std::make_shared<PolygonOffsetChunk>(3.0f, 0.0f)},

@@ -28,6 +28,22 @@ Result<glm::vec2> btfScale(const GltfFile& file, const tinygltf::Value& extensio
   return value;
 }
 
+/// The textures of a material, first those in whose set of texture coordinates the tangents of a
+/// mesh must lie.
+std::vector<PBRTexture*> tangentTexturesFirst(PBROptions& options) {
+  std::vector<PBRTexture*> textures{&options.normalTexture, &options.clearcoat.normalTexture,
+                                    &options.anisotropy.texture};
+  for (PBRTexture* texture : texturesOf(options))
+    if (std::find(textures.begin(), textures.end(), texture) == textures.end()) textures.push_back(texture);
+  return textures;
+}
+
+/// What has no tangents is shown without what lies along them.
+void leaveOutTangents(PBROptions& options) {
+  options.normalTexture = options.clearcoat.normalTexture = {};
+  options.anisotropy = {};
+}
+
 }  // namespace
 
 Result<MeshDress> GltfMaterials::get(int index, Shading shading) {
@@ -37,7 +53,9 @@ Result<MeshDress> GltfMaterials::get(int index, Shading shading) {
   const tinygltf::Material material =
       index < 0 ? tinygltf::Material() : file_.model.materials[static_cast<std::size_t>(index)];
   WEFT_TRY(MeshDress dress, make(index, material, shading));
-  WEFT_TRY(dress.tangentSet, tangentSetOf(file_, material));
+  if (material.normalTexture.index >= 0) {
+    WEFT_TRY(dress.tangentSet, tangentSetOf(file_, material));
+  }
   return made_[{index, shading}] = std::move(dress);
 }
 
@@ -105,17 +123,20 @@ Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Ma
 
 Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {
   WEFT_TRY(PBROptions options, GltfPbr(file_, textures_).read(material));
-  if (shading != Shading::Full) options.normalTexture = {};
+  if (shading != Shading::Full) leaveOutTangents(options);
   if (shading == Shading::Unlit) options.unlit = true;
 
-  // The normal texture's set comes first, because the tangents of a mesh belong to its first one.
-  MeshDress dress;
+  // Rough glass blurs what is behind it.
+  constexpr float kVisiblyRough = 0.1f;
+  if (options.transmission.factor > 0.0f && options.roughness > kVisiblyRough)
+    warnings_.push_back("what is behind " + quoted(material) + " is shown sharp, although it is rough");
+
+  // The tangents of a mesh belong to its first set.
+  MeshDress dress{.usesTangents = options.anisotropy.strength > 0.0f};
   std::vector<int> sets;
-  for (PBRTexture* texture :
-       {&options.normalTexture, &options.baseColorTexture, &options.metallicRoughnessTexture,
-        &options.emissionTexture, &options.occlusionTexture, &options.specularTexture,
-        &options.specularColorTexture}) {
+  for (PBRTexture* texture : tangentTexturesFirst(options)) {
     if (!texture->image) continue;
+    if (sets.empty() && material.normalTexture.index < 0) dress.tangentSet = texture->placement.set;
     int& set = texture->placement.set;
     auto found = std::find(sets.begin(), sets.end(), set);
     if (found == sets.end()) found = sets.insert(sets.end(), set);

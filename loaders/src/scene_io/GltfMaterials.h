@@ -13,8 +13,8 @@
 namespace weft {
 
 /// What glTF makes lighting depend on: lines and points without normals are shown without it, those
-/// without tangents have no normal texture.
-enum class Shading { Full, WithoutNormalTexture, Unlit };
+/// without tangents have nothing that lies along them.
+enum class Shading { Full, WithoutTangents, Unlit };
 
 /// A material, and what it asks of the meshes that wear it.
 struct MeshDress {
@@ -24,6 +24,7 @@ struct MeshDress {
   int tangentSet = 0;            ///< which of the file's the file's tangents belong to
   TexturePlacement placement{};  ///< of the mesh's first set, tangents included
   bool usesTexcoords = false;
+  bool usesTangents = false;  ///< beyond those of a normal texture
 };
 
 /// Makes the materials of a file when they are first asked for, so that what nothing uses, or what

@@ -253,6 +253,9 @@ Result<void> readTexcoords(const GltfFile& file, const tinygltf::Primitive& prim
   WEFT_TRY(mesh.texcoords1, readAttribute<glm::vec2>(file, primitive.attributes, nameOf(1), vertices));
   if (mesh.texcoords.empty() && dress.usesTexcoords)
     warnings.push_back("a mesh has no " + nameOf(0) + ": it shows a single texel");
+  if (mesh.texcoords.empty() && mesh.tangents.empty() && dress.usesTangents)
+    warnings.push_back("a mesh has neither TANGENT nor " + nameOf(0) +
+                       ": its highlights are stretched along a guessed direction");
   mesh.texcoords.resize(vertices.count(), glm::vec2(0));
   return {};
 }
@@ -279,7 +282,7 @@ Shading shadingOf(const tinygltf::Primitive& primitive) {
   const bool hasSurface = primitive.mode == -1 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
   if (hasSurface) return Shading::Full;
   if (!primitive.attributes.contains("NORMAL")) return Shading::Unlit;
-  return primitive.attributes.contains("TANGENT") ? Shading::Full : Shading::WithoutNormalTexture;
+  return primitive.attributes.contains("TANGENT") ? Shading::Full : Shading::WithoutTangents;
 }
 
 std::string meshKey(const tinygltf::Primitive& primitive, const MeshDress& dress, const MeshPose& pose) {

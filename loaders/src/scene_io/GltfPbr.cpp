@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "GltfExtension.h"
+#include "GltfLayers.h"
 #include "GltfPlacement.h"
 
 namespace weft {
 namespace {
 
-constexpr const char* kSpecular = "KHR_materials_specular";
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 constexpr float kInfiniteRefractiveIndex = 1e6f;  // mirrors everything
-
-float unit(double factor) {
-  return static_cast<float>(std::clamp(factor, 0.0, 1.0));
-}
-
-glm::vec3 unitColor(const std::vector<double>& numbers) {
-  return {unit(numbers[0]), unit(numbers[1]), unit(numbers[2])};
-}
 
 }  // namespace
 
@@ -52,12 +46,13 @@ Result<void> GltfPbr::readFactors(const tinygltf::Material& material, PBROptions
       !finite({pbr.metallicFactor, pbr.roughnessFactor, material.normalTexture.scale,
                material.occlusionTexture.strength, material.alphaCutoff}))
     return file_.fail("a factor of " + quoted(material) + " is not finite");
-  options.baseColor = {unit(color[0]), unit(color[1]), unit(color[2]), unit(color[3])};
-  options.metallic = unit(pbr.metallicFactor);
-  options.roughness = unit(pbr.roughnessFactor);
-  options.emission = {unit(emission[0]), unit(emission[1]), unit(emission[2])};
+  options.baseColor = {unitFactor(color[0]), unitFactor(color[1]), unitFactor(color[2]),
+                       unitFactor(color[3])};
+  options.metallic = unitFactor(pbr.metallicFactor);
+  options.roughness = unitFactor(pbr.roughnessFactor);
+  options.emission = {unitFactor(emission[0]), unitFactor(emission[1]), unitFactor(emission[2])};
   options.normalScale = static_cast<float>(material.normalTexture.scale);
-  options.occlusionStrength = unit(material.occlusionTexture.strength);
+  options.occlusionStrength = unitFactor(material.occlusionTexture.strength);
   return {};
 }
 
@@ -90,22 +85,30 @@ Result<void> GltfPbr::readTextures(const tinygltf::Material& material, PBROption
 }
 
 Result<void> GltfPbr::readExtensions(const tinygltf::Material& material, PBROptions& options) {
-  const auto number = [&](const char* extension, const char* key, double otherwise) -> Result<double> {
-    const auto found = material.extensions.find(extension);
-    if (found == material.extensions.end()) return otherwise;
-    WEFT_TRY(const std::vector<double> numbers, numbersOf(file_, extension, found->second, key, {otherwise}));
-    return numbers[0];
+  const std::string of = "of " + quoted(material);
+  const auto forOne = [&](const char* name, const auto& read) -> Result<void> {
+    const auto found = material.extensions.find(name);
+    if (found == material.extensions.end()) return {};
+    return read(GltfExtension(file_, textures_, name, found->second, of));
   };
-  WEFT_TRY(const double strength, number("KHR_materials_emissive_strength", "emissiveStrength", 1.0));
-  WEFT_TRY(const double ior, number("KHR_materials_ior", "ior", 1.5));
-  options.emission *= static_cast<float>(std::max(strength, 0.0));
-  // 0 stands for an infinite one.
-  options.refractiveIndex = ior == 0.0 ? kInfiniteRefractiveIndex : static_cast<float>(std::max(ior, 1.0));
-  const std::string of = " of " + quoted(material);
-  if (const auto found = material.extensions.find(kSpecular); found != material.extensions.end())
-    WEFT_TRY_VOID(readSpecular(found->second, of, options));
-  if (const auto found = material.extensions.find(kSpecularGlossiness); found != material.extensions.end())
-    WEFT_TRY_VOID(readSpecularGlossiness(found->second, of, options));
+  WEFT_TRY_VOID(
+      forOne("KHR_materials_emissive_strength", [&](const GltfExtension& extension) -> Result<void> {
+        WEFT_TRY(const double strength, extension.number("emissiveStrength", 1.0));
+        options.emission *= static_cast<float>(std::max(strength, 0.0));
+        return {};
+      }));
+  WEFT_TRY_VOID(forOne("KHR_materials_ior", [&](const GltfExtension& extension) -> Result<void> {
+    WEFT_TRY(const double ior, extension.number("ior", 1.5));
+    // 0 stands for an infinite one.
+    options.refractiveIndex = ior == 0.0 ? kInfiniteRefractiveIndex : static_cast<float>(std::max(ior, 1.0));
+    return {};
+  }));
+  WEFT_TRY_VOID(forOne("KHR_materials_specular",
+                       [&](const auto& extension) { return readSpecular(extension, options); }));
+  WEFT_TRY_VOID(forOne(kSpecularGlossiness, [&](const auto& extension) {
+    return readSpecularGlossiness(extension, of, options);
+  }));
+  WEFT_TRY_VOID(readLayers(file_, textures_, material, of, options));
   if (material.extensions.contains("KHR_materials_unlit")) {
     options.unlit = true;
     options.emission = glm::vec3(0.0f);
@@ -113,43 +116,34 @@ Result<void> GltfPbr::readExtensions(const tinygltf::Material& material, PBROpti
   return {};
 }
 
-Result<void> GltfPbr::readSpecular(const tinygltf::Value& extension, const std::string& of,
-                                   PBROptions& options) {
-  WEFT_TRY(const std::vector<double> factor, numbersOf(file_, kSpecular, extension, "specularFactor", {1.0}));
-  WEFT_TRY(const std::vector<double> color,
-           numbersOf(file_, kSpecular, extension, "specularColorFactor", {1.0, 1.0, 1.0}));
-  options.specular = unit(factor[0]);
-  for (int channel = 0; channel < 3; ++channel)
-    options.specularColor[channel] =
-        static_cast<float>(std::max(color[static_cast<std::size_t>(channel)], 0.0));
-  WEFT_TRY(options.specularTexture, texture(extension, "specularTexture", false, "specular texture" + of));
-  WEFT_TRY(options.specularColorTexture,
-           texture(extension, "specularColorTexture", true, "specular colour texture" + of));
+Result<void> GltfPbr::readSpecular(const GltfExtension& extension, PBROptions& options) {
+  WEFT_TRY(options.specular, extension.factor("specularFactor", 1.0));
+  WEFT_TRY(options.specularColor, extension.color("specularColorFactor", 1.0));
+  WEFT_TRY(options.specularTexture, extension.texture("specularTexture", false, "specular"));
+  WEFT_TRY(options.specularColorTexture, extension.texture("specularColorTexture", true, "specular colour"));
   return {};
 }
 
 /// The same surface in other words: a dielectric that mirrors all, times the colour of its
 /// highlights.
-Result<void> GltfPbr::readSpecularGlossiness(const tinygltf::Value& extension, const std::string& of,
+Result<void> GltfPbr::readSpecularGlossiness(const GltfExtension& extension, const std::string& of,
                                              PBROptions& options) {
-  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
-    return numbersOf(file_, kSpecularGlossiness, extension, key, otherwise);
-  };
   constexpr const char* kTexture = "specularGlossinessTexture";
-  WEFT_TRY(const std::vector<double> diffuse, numbers("diffuseFactor", {1.0, 1.0, 1.0, 1.0}));
-  WEFT_TRY(const std::vector<double> specular, numbers("specularFactor", {1.0, 1.0, 1.0}));
-  WEFT_TRY(const std::vector<double> glossiness, numbers("glossinessFactor", {1.0}));
-  options.baseColor = glm::vec4(unitColor(diffuse), unit(diffuse[3]));
+  WEFT_TRY(const std::vector<double> diffuse,
+           numbersOf(file_, kSpecularGlossiness, extension.value(), "diffuseFactor", {1.0, 1.0, 1.0, 1.0}));
+  WEFT_TRY(const glm::vec3 specular, extension.color("specularFactor", 1.0));
+  WEFT_TRY(const float glossiness, extension.factor("glossinessFactor", 1.0));
+  for (int channel = 0; channel < 4; ++channel)
+    options.baseColor[channel] = unitFactor(diffuse[static_cast<std::size_t>(channel)]);
   options.metallic = 0.0f;
-  options.roughness = 1.0f - unit(glossiness[0]);
+  options.roughness = 1.0f - glossiness;
   options.refractiveIndex = kInfiniteRefractiveIndex;
   options.specular = 1.0f;
-  options.specularColor = unitColor(specular);
+  options.specularColor = glm::min(specular, glm::vec3(1.0f));
   options.specularTexture = options.metallicRoughnessTexture = {};
-  WEFT_TRY(options.baseColorTexture, texture(extension, "diffuseTexture", true, "diffuse texture" + of));
-  WEFT_TRY(options.specularColorTexture,
-           texture(extension, kTexture, true, "specular-glossiness texture" + of));
-  if (!extension.Has(kTexture)) return {};
+  WEFT_TRY(options.baseColorTexture, extension.texture("diffuseTexture", true, "diffuse"));
+  WEFT_TRY(options.specularColorTexture, extension.texture(kTexture, true, "specular-glossiness"));
+  if (!extension.has(kTexture)) return {};
   if (!options.specularColorTexture.image) {
     // Factors without their texture mean nothing: most things are matt.
     options.refractiveIndex = 1.5f;
@@ -157,9 +151,9 @@ Result<void> GltfPbr::readSpecularGlossiness(const tinygltf::Value& extension, c
     options.roughness = 1.0f;
     return {};
   }
-  const int index = extension.Get(kTexture).Get("index").GetNumberAsInt();
+  const int index = extension.value().Get(kTexture).Get("index").GetNumberAsInt();
   WEFT_TRY(std::shared_ptr<const TextureChunk> roughness,
-           textures_.roughnessOf(index, unit(glossiness[0]), "roughness" + of));
+           textures_.roughnessOf(index, glossiness, "roughness " + of));
   if (!roughness) return {};
   options.metallicRoughnessTexture = {std::move(roughness), options.specularColorTexture.placement};
   options.roughness = 1.0f;
@@ -173,17 +167,6 @@ Result<PBRTexture> GltfPbr::texture(const Info& info, bool srgb, const std::stri
   WEFT_TRY(made.placement, placementFrom(file_, info.extensions, info.texCoord));
   WEFT_TRY(made.image, textures_.get(info.index, srgb, use));
   return made;
-}
-
-Result<PBRTexture> GltfPbr::texture(const tinygltf::Value& extension, const char* key, bool srgb,
-                                    const std::string& use) {
-  if (!extension.Has(key)) return PBRTexture{};
-  const tinygltf::Value& member = extension.Get(key);
-  tinygltf::TextureInfo info;
-  info.index = member.Get("index").GetNumberAsInt();
-  if (member.Has("texCoord")) info.texCoord = member.Get("texCoord").GetNumberAsInt();
-  info.extensions = placementExtensionsOf(member);
-  return texture(info, srgb, use);
 }
 
 }  // namespace weft

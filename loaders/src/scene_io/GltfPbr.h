@@ -1,5 +1,6 @@
 #pragma once
 
+#include "GltfExtension.h"
 #include "GltfFile.h"
 #include "GltfTextures.h"
 #include "weft/materials/PBRMaterial.h"
@@ -23,15 +24,12 @@ class GltfPbr {
   Result<void> readAlpha(const tinygltf::Material& material, PBROptions& options) const;
   Result<void> readTextures(const tinygltf::Material& material, PBROptions& options);
   Result<void> readExtensions(const tinygltf::Material& material, PBROptions& options);
-  Result<void> readSpecular(const tinygltf::Value& extension, const std::string& of, PBROptions& options);
-  Result<void> readSpecularGlossiness(const tinygltf::Value& extension, const std::string& of,
+  static Result<void> readSpecular(const GltfExtension& extension, PBROptions& options);
+  Result<void> readSpecularGlossiness(const GltfExtension& extension, const std::string& of,
                                       PBROptions& options);
   /// `info`: any of tinygltf's kinds.
   template <class Info>
   Result<PBRTexture> texture(const Info& info, bool srgb, const std::string& use);
-  /// A texture that is a member of an extension; without it nothing.
-  Result<PBRTexture> texture(const tinygltf::Value& extension, const char* key, bool srgb,
-                             const std::string& use);
 
   const GltfFile& file_;
   GltfTextures& textures_;

@@ -20,9 +20,8 @@ bool isDataUri(std::string_view uri);
 /// A uri for people: of one that holds its bytes only the start, and how long it is.
 std::string shownUri(std::string_view uri);
 
-/// The file that a uri names, by the one rule for buffers, images and fields
-/// (docs/gltf-extension.md); `file`: the glTF, for whose folder it is. It need not exist. Fails
-/// where the uri names no file.
+/// The file that a uri names, by the one rule for buffers, images and fields (docs/gltf.md);
+/// `file`: the glTF, for whose folder it is. It need not exist. Fails where the uri names no file.
 Result<std::filesystem::path> resolveUri(const std::filesystem::path& file, const std::string& uri);
 
 /// The bytes of a uri, its own or those of its file, which is not larger than `limit`.

@@ -60,6 +60,24 @@ constexpr const char* kShapes = R"({
         "diffuseFactor": ["number"], "specularFactor": ["number"], "glossinessFactor": "number",
         "diffuseTexture": "texture", "specularGlossinessTexture": "texture"
       },
+      "KHR_materials_clearcoat": {
+        "clearcoatFactor": "number", "clearcoatRoughnessFactor": "number",
+        "clearcoatTexture": "texture", "clearcoatRoughnessTexture": "texture",
+        "clearcoatNormalTexture": "texture"
+      },
+      "KHR_materials_sheen": {
+        "sheenColorFactor": ["number"], "sheenRoughnessFactor": "number",
+        "sheenColorTexture": "texture", "sheenRoughnessTexture": "texture"
+      },
+      "KHR_materials_anisotropy": {
+        "anisotropyStrength": "number", "anisotropyRotation": "number", "anisotropyTexture": "texture"
+      },
+      "KHR_materials_iridescence": {
+        "iridescenceFactor": "number", "iridescenceIor": "number",
+        "iridescenceThicknessMinimum": "number", "iridescenceThicknessMaximum": "number",
+        "iridescenceTexture": "texture", "iridescenceThicknessTexture": "texture"
+      },
+      "KHR_materials_transmission": {"transmissionFactor": "number", "transmissionTexture": "texture"},
       "KHR_materials_unlit": {},
       "WEFT_materials_btf": {
         "uri!": "string", "map": "string", "scale": ["number"], "texCoord": "index",

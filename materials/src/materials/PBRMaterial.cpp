@@ -1,16 +1,14 @@
 #include "weft/materials/PBRMaterial.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "weft/chunks/BlendChunk.h"
 #include "weft/chunks/DepthChunk.h"
 #include "weft/chunks/ProgramChunk.h"
 #include "weft/chunks/RasterChunk.h"
 #include "weft/chunks/UniformBlockChunk.h"
+#include "weft/reflectance/SheenTable.h"
 #include "weft/shaders/Bindings.h"
 
 namespace weft {
@@ -27,6 +25,12 @@ struct PBRBlock {
   glm::vec4 fresnel;       ///< of the dielectric: F0 before it is clamped, w: specular
   glm::vec4 factors;       ///< metallic, roughness, normal scale, occlusion strength
   glm::vec4 tangentFrame;  ///< of the normal texture, columns
+  glm::vec4 clearcoat;     ///< factor, roughness, normal scale
+  glm::vec4 clearcoatFrame;
+  glm::vec4 sheen;            ///< rgb, roughness
+  glm::vec4 anisotropyFrame;  ///< columns
+  glm::vec4 iridescence;      ///< factor, refractive index, minimum and maximum of the thickness
+  glm::vec4 layers;           ///< strength of the anisotropy, transmission
   std::array<PlacementBlock, bindings::pbrUnitCount> placements;
 };
 
@@ -35,59 +39,92 @@ PlacementBlock blockOf(const TexturePlacement& placement) {
   return {{matrix[0], matrix[1]}, {placement.offset, placement.set, 0.0f}};
 }
 
+glm::vec4 columnsOf(const glm::mat2& matrix) {
+  return {matrix[0], matrix[1]};
+}
+
+glm::mat2 turned(float rotation) {
+  const float c = std::cos(rotation), s = std::sin(rotation);
+  return {c, s, -s, c};
+}
+
 PBRBlock blockOf(const PBROptions& options) {
   const float ratio = (options.refractiveIndex - 1.0f) / (options.refractiveIndex + 1.0f);
-  const glm::mat2 frame = options.normalTexture.placement.tangentFrame();
-  return {options.baseColor,
-          {options.emission, options.alphaCutoff},
-          {ratio * ratio * options.specularColor, options.specular},
-          {options.metallic, options.roughness, options.normalScale, options.occlusionStrength},
-          {frame[0], frame[1]},
-          {blockOf(options.baseColorTexture.placement), blockOf(options.metallicRoughnessTexture.placement),
-           blockOf(options.normalTexture.placement), blockOf(options.emissionTexture.placement),
-           blockOf(options.occlusionTexture.placement), blockOf(options.specularTexture.placement),
-           blockOf(options.specularColorTexture.placement)}};
+  const Clearcoat& clearcoat = options.clearcoat;
+  const Anisotropy& anisotropy = options.anisotropy;
+  const Iridescence& film = options.iridescence;
+  PBRBlock block{options.baseColor,
+                 {options.emission, options.alphaCutoff},
+                 {ratio * ratio * options.specularColor, options.specular},
+                 {options.metallic, options.roughness, options.normalScale, options.occlusionStrength},
+                 columnsOf(options.normalTexture.placement.tangentFrame()),
+                 {clearcoat.factor, clearcoat.roughness, clearcoat.normalScale, 0.0f},
+                 columnsOf(clearcoat.normalTexture.placement.tangentFrame()),
+                 {options.sheen.color, options.sheen.roughness},
+                 columnsOf(anisotropy.texture.placement.tangentFrame() * turned(anisotropy.rotation)),
+                 {film.factor, film.refractiveIndex, film.minimumThickness, film.maximumThickness},
+                 {anisotropy.strength, options.transmission.factor, 0.0f, 0.0f},
+                 {}};
+  const auto textures = texturesOf(options);
+  for (std::size_t unit = 0; unit < textures.size(); ++unit)
+    block.placements[unit] = blockOf(textures[unit]->placement);
+  return block;
+}
+
+/// What pbr.frag calls a unit that has a texture.
+constexpr std::array<const char*, bindings::pbrUnitCount> kTextureDefines{
+    "BASE_COLOR_TEXTURE",       "METALLIC_ROUGHNESS_TEXTURE", "NORMAL_TEXTURE",
+    "EMISSION_TEXTURE",         "OCCLUSION_TEXTURE",          "SPECULAR_TEXTURE",
+    "SPECULAR_COLOR_TEXTURE",   "CLEARCOAT_TEXTURE",          "CLEARCOAT_ROUGHNESS_TEXTURE",
+    "CLEARCOAT_NORMAL_TEXTURE", "SHEEN_COLOR_TEXTURE",        "SHEEN_ROUGHNESS_TEXTURE",
+    "ANISOTROPY_TEXTURE",       "IRIDESCENCE_TEXTURE",        "IRIDESCENCE_THICKNESS_TEXTURE",
+    "TRANSMISSION_TEXTURE"};
+
+/// Metals let nothing pass.
+bool transmits(const PBROptions& options) {
+  const bool canPass = options.metallic < 1.0f || options.metallicRoughnessTexture.image;
+  return options.transmission.factor > 0.0f && canPass && !options.unlit;
+}
+
+/// The layers that are compiled in.
+std::vector<const char*> layersOf(const PBROptions& options) {
+  std::vector<const char*> layers;
+  if (options.unlit) return {"UNLIT"};
+  if (options.clearcoat.factor > 0.0f) layers.push_back("CLEARCOAT");
+  if (options.sheen.color != glm::vec3(0.0f)) layers.push_back("SHEEN");
+  if (options.anisotropy.strength > 0.0f) layers.push_back("ANISOTROPY");
+  if (options.iridescence.factor > 0.0f) layers.push_back("IRIDESCENCE");
+  if (transmits(options)) layers.push_back("TRANSMISSION");
+  return layers;
+}
+
+/// Takes a while, and is the same for all.
+std::shared_ptr<const FloatImage> sheenTable() {
+  static const auto table = std::make_shared<const FloatImage>(SheenTable().image());
+  return table;
 }
 
 }  // namespace
 
-glm::mat2 TexturePlacement::matrix() const {
-  const float c = std::cos(rotation), s = std::sin(rotation);
-  return {scale.x * glm::vec2(c, -s), scale.y * glm::vec2(s, c)};
-}
-
-glm::mat2 TexturePlacement::tangentFrame() const {
-  if (scale.x == 0.0f || scale.y == 0.0f) return glm::mat2(1.0f);
-  // Where u' grows and v' stays, as steps in u along the tangent and in v against the bitangent.
-  const glm::vec2 step = glm::inverse(matrix())[0];
-  const glm::vec2 tangent = glm::normalize(glm::vec2(step.x, -step.y));
-  const float handedness = scale.x * scale.y < 0.0f ? -1.0f : 1.0f;
-  return {tangent, handedness * glm::vec2(-tangent.y, tangent.x)};
-}
-
 PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
   ShaderSource source{.vertex = "mesh.vert", .fragment = "pbr.frag"};
   const auto define = [&](const char* name) { source.defines.emplace_back(name, ""); };
-  const auto add = [&](unsigned unit, const PBRTexture& texture, const char* name) {
-    if (!texture.image) return;
-    setChunk(textureSlot(unit), texture.image);
-    define(name);
-  };
-  add(bindings::baseColorUnit, options.baseColorTexture, "BASE_COLOR_TEXTURE");
-  add(bindings::emissionUnit, options.emissionTexture, "EMISSION_TEXTURE");
-  if (options.unlit) {
-    define("UNLIT");
-  } else {
-    add(bindings::metallicRoughnessUnit, options.metallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE");
-    add(bindings::normalUnit, options.normalTexture, "NORMAL_TEXTURE");
-    add(bindings::occlusionUnit, options.occlusionTexture, "OCCLUSION_TEXTURE");
-    add(bindings::specularUnit, options.specularTexture, "SPECULAR_TEXTURE");
-    add(bindings::specularColorUnit, options.specularColorTexture, "SPECULAR_COLOR_TEXTURE");
+  const auto textures = texturesOf(options_);
+  for (unsigned unit = 0; unit < textures.size(); ++unit) {
+    const bool isShown = !options.unlit || unit == bindings::baseColorUnit || unit == bindings::emissionUnit;
+    if (!isShown || !textures[unit]->image) continue;
+    setChunk(textureSlot(unit), textures[unit]->image);
+    define(kTextureDefines[unit]);
   }
+  for (const char* layer : layersOf(options)) define(layer);
+  if (options.sheen.color != glm::vec3(0.0f))
+    setChunk(textureSlot(bindings::sheenTableUnit),
+             std::make_shared<TextureChunk>(sheenTable(), TextureOptions{.filter = TextureFilter::Linear}));
   if (options.alphaMode == AlphaMode::Mask) define("ALPHA_MASK");
-  if (options.alphaMode == AlphaMode::Blend) {
-    define("ALPHA_BLEND");
-    setChunk(BlendSlot, std::make_shared<BlendChunk>());
+  if (options.alphaMode == AlphaMode::Blend) define("ALPHA_BLEND");
+  if (options.alphaMode == AlphaMode::Blend || transmits(options)) {
+    setChunk(BlendSlot,
+             std::make_shared<BlendChunk>(transmits(options) ? BlendKind::Tint : BlendKind::Alpha));
     setChunk(DepthSlot, std::make_shared<DepthChunk>(true, false));
   }
   if (options.doubleSided) setChunk(RasterSlot, std::make_shared<RasterChunk>(Culling::None));
@@ -98,6 +135,11 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
   coverage_.set(BlendSlot, nullptr);
   coverage_.set(DepthSlot, std::make_shared<DepthChunk>());
   coverage_.set(RasterSlot, nullptr);  // both sides keep light off
+}
+
+const State* PBRMaterial::coverage() const {
+  const bool isOpaque = options_.alphaMode == AlphaMode::Opaque && !transmits(options_);
+  return isOpaque ? nullptr : &coverage_;
 }
 
 }  // namespace weft

@@ -6,7 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
-#include <utility>
+
+#include "TablePlace.h"
 
 namespace weft {
 namespace {
@@ -15,13 +16,6 @@ constexpr float kSmoothest = 0.045f;  // as pbr.frag
 
 float share(int i, int count) {
   return static_cast<float>(i) / static_cast<float>(count - 1);
-}
-
-/// Between the first and last of so many values: the one before, and the share of the next.
-std::pair<int, float> placeIn(float share, int count) {
-  const float place = std::clamp(share, 0.0f, 1.0f) * static_cast<float>(count - 1);
-  const int before = std::min(static_cast<int>(place), count - 2);
-  return {before, place - static_cast<float>(before)};
 }
 
 /// V of GGX: Smith's height-correlated shadowing (shaders/ggx.glsl).
@@ -66,8 +60,8 @@ MicrofacetTable::MicrofacetTable() : image_(32, 32, {"R", "G"}) {
 }
 
 glm::vec2 MicrofacetTable::at(float cosineToView, float roughness) const {
-  const auto [x, right] = placeIn(cosineToView, image_.width());
-  const auto [y, down] = placeIn(roughness, image_.height());
+  const auto [x, right] = placeInTable(cosineToView, image_.width());
+  const auto [y, down] = placeInTable(roughness, image_.height());
   glm::vec2 value;
   for (int c = 0; c < 2; ++c)
     value[c] = glm::mix(glm::mix(image_.at(x, y, c), image_.at(x + 1, y, c), right),

@@ -25,7 +25,16 @@ const int emissionUnit = 3;
 const int occlusionUnit = 4;
 const int specularUnit = 5;
 const int specularColorUnit = 6;
-const int pbrUnitCount = 7;
+const int clearcoatUnit = 7;
+const int clearcoatRoughnessUnit = 8;
+const int clearcoatNormalUnit = 9;
+const int sheenColorUnit = 10;
+const int sheenRoughnessUnit = 11;
+const int anisotropyUnit = 12;
+const int iridescenceUnit = 13;
+const int iridescenceThicknessUnit = 14;
+const int transmissionUnit = 15;
+const int pbrUnitCount = 16;
 
 const int panoramaUnit = 0;  // background.frag
 
@@ -38,3 +47,5 @@ const int microfacetTableUnit = 19;
 // Textures of shadows.glsl, beside those.
 const int shadowMapsUnit = 20;
 const int shadowCubesUnit = 21;
+
+const int sheenTableUnit = 22;  // sheen.glsl
