@@ -55,6 +55,10 @@ TEST(BakeCommand, BadOptionsEndWithOneAndNameWhatIsWrong) {
       {{"-o", zip, "--pattern", "weave", "--scale", "-1"}, "--scale"},
       {{"-o", zip, "--pattern", "weave", "--directions", "mine"}, "mine"},
       {{"-o", (folder / "x.btf").string(), "--pattern", "weave"}, "x.btf"},
+      {{"-o", zip}, "--pattern and --height"},
+      {{"-o", zip, "--pattern", "weave", "--height", "x.png"}, "--pattern and --height"},
+      {{"-o", zip, "--pattern", "weave", "--albedo", "x.png"}, "--height"},
+      {{"-o", zip, "--height", "x.png"}, "--depth"},
       {{"--pattern", "weave"}, "-o"}};
   for (const auto& [arguments, named] : cases) {
     const ProgramRun run = runProgram("weft-bake", arguments);

@@ -67,6 +67,17 @@ TEST_F(StartSamples, TheStoolHasThreeMaterialsAndMetres) {
   EXPECT_EQ(run.err, "");
 }
 
+TEST_F(StartSamples, ASetOfTexturesIsBakedWithoutAWarning) {
+  runScript("bricks.py", {folder});
+  const std::string zip = folder / "bricks.zip";
+  const auto run = test::runProgram(
+      "weft-bake", {"--height", folder / "height.png", "--depth", "0.03", "--albedo", folder / "albedo.png",
+                    "--roughness", folder / "roughness.png", "--size", "4", "-o", zip, "--quiet"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_NE(run.out.find("4 x 4 texels, 81 views x 81 lights"), std::string::npos) << run.out;
+  EXPECT_EQ(run.err, "");
+}
+
 TEST_F(StartSamples, TheViewFromTheTopOfAMeasurementIsAnRti) {
   const std::string zip = folder / "tiles.zip";
   ASSERT_EQ(test::runProgram("weft-bake", {"--pattern", "tiles", "--size", "4", "-o", zip}).exitCode, 0);

@@ -302,7 +302,7 @@ glm::vec3 BtfBaker::Tracer::texelPoint(int column, int row, glm::vec2 within) co
 glm::vec3 BtfBaker::Tracer::reflectance(const HeightField::Sample& sample, glm::vec3 normal, glm::vec3 view,
                                         glm::vec3 light) const {
   if (sample.specular <= 0.0f) return sample.albedo;
-  const float squared = field.roughness * field.roughness;
+  const float squared = sample.roughness * sample.roughness;
   const float nv = std::max(glm::dot(normal, view), 1e-4f);
   const float nl = std::max(glm::dot(normal, light), 1e-4f);
   const float nh = std::min(glm::dot(normal, glm::normalize(view + light)), 1.0f);
@@ -396,14 +396,14 @@ BtfBaker::~BtfBaker() = default;
 
 Result<BtfBaker> BtfBaker::create(HeightField field, BakeOptions options) {
   WEFT_TRY_VOID(options.validate());
-  if (!(field.roughness >= 0.05f && field.roughness <= 1.0f))
-    return fail("a roughness of " + std::to_string(field.roughness) + " is out of range", {}, "0.05 to 1");
   for (const HeightField::Sample& sample : field.samples) {
     const float least = std::min({sample.albedo.r, sample.albedo.g, sample.albedo.b, sample.specular});
     const float most = std::max({sample.albedo.r, sample.albedo.g, sample.albedo.b}) + sample.specular;
     if (!std::isfinite(sample.height)) return fail("the height field holds a value that is not finite");
     if (!(least >= 0.0f && most <= 1.0f))
       return fail("the height field reflects more light than it receives");
+    if (!(sample.roughness >= 0.05f && sample.roughness <= 1.0f))
+      return fail("a roughness of " + std::to_string(sample.roughness) + " is out of range", {}, "0.05 to 1");
   }
   auto tracer = std::make_unique<Tracer>(std::move(field), std::move(options));
   WEFT_TRY_VOID(tracer->build());

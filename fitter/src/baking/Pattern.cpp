@@ -198,12 +198,12 @@ Result<HeightField> makePattern(std::string_view name, int resolution) {
   }
   const float spacing = 1.0f / static_cast<float>(resolution);
   HeightField field(resolution, resolution, spacing);
-  field.roughness = pattern->roughness;
   for (int row = 0; row < resolution; ++row)
     for (int column = 0; column < resolution; ++column) {
       const glm::vec2 p{(static_cast<float>(column) + 0.5f) * spacing,
                         1.0f - (static_cast<float>(row) + 0.5f) * spacing};
       field.at(column, row) = pattern->sampleAt(p);
+      field.at(column, row).roughness = pattern->roughness;
     }
   field.centre();
   return field;

@@ -34,8 +34,7 @@ double specularBrdf(double alpha, glm::dvec3 v, glm::dvec3 l) {
 
 TEST(BakeLight, AFlatPatchGivesItsOwnReflectanceForEveryPair) {
   HeightField field(5, 4, 0.3f);
-  field.roughness = 0.35f;
-  for (HeightField::Sample& sample : field.samples) sample = {0.0f, {0.5f, 0.3f, 0.1f}, 0.3f};
+  for (HeightField::Sample& sample : field.samples) sample = {0.0f, {0.5f, 0.3f, 0.1f}, 0.3f, 0.35f};
   BakeOptions options;
   options.width = 4;
   options.height = 3;
@@ -129,8 +128,7 @@ TEST(BakeLight, AWhiteGrooveUnderAWhiteSkyIsWhiteAndNeverMore) {
 
 TEST(BakeLight, AGlossyWhiteGrooveReflectsNoMoreThanItReceives) {
   HeightField field = groove(0.4f);
-  field.roughness = 0.4f;
-  for (HeightField::Sample& sample : field.samples) sample.specular = 0.6f;
+  for (HeightField::Sample& sample : field.samples) sample.specular = 0.6f, sample.roughness = 0.4f;
   for (const glm::vec3 view : {directionFromDegrees(0, 0), directionFromDegrees(75, 20)}) {
     const double value = underWhiteSky(field, view, 40);
     EXPECT_LT(value, 1.01);
@@ -190,7 +188,7 @@ TEST(BakeLight, RefusesWhatItCannotBake) {
   bad.at(3, 1).height = std::nanf("");
   EXPECT_NE(reason(bad, {}), "");
   bad = good;
-  bad.roughness = 0.0f;
+  bad.at(3, 1).roughness = 0.0f;
   EXPECT_NE(reason(bad, {}), "");
   bad = good;
   bad.at(3, 1).height = 1e9f;

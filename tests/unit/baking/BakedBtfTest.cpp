@@ -23,8 +23,7 @@ BakeOptions fewDirections() {
 
 BtfBaker flatBaker(float albedo, float specular, const BakeOptions& options) {
   HeightField field(4, 4, 1.0f);
-  field.roughness = 0.2f;
-  for (HeightField::Sample& sample : field.samples) sample = {0.0f, glm::vec3(albedo), specular};
+  for (HeightField::Sample& sample : field.samples) sample = {0.0f, glm::vec3(albedo), specular, 0.2f};
   return test::valueOf(BtfBaker::create(field, options));
 }
 

@@ -17,6 +17,7 @@ struct HeightField {
     glm::vec3 albedo{1.0f};  ///< linear RGB of the diffuse reflection
     /// weight of the specular lobe; specular + albedo <= 1 in every channel
     float specular = 0.0f;
+    float roughness = 0.5f;  ///< GGX alpha of the specular lobe, 0.05..1
   };
 
   HeightField(int columnCount, int rowCount, float sampleSpacing);
@@ -24,7 +25,6 @@ struct HeightField {
   int columns = 0;
   int rows = 0;
   float spacing = 1.0f;         ///< between samples, in any unit
-  float roughness = 0.5f;       ///< GGX alpha of the specular lobe, 0.05..1
   std::vector<Sample> samples;  ///< `[row][column]`
 
   Sample& at(int column, int row) { return samples[index(column, row)]; }
