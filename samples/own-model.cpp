@@ -1,5 +1,6 @@
 // A reflectance model of one's own, fitted and drawn: own-model UBO_WOOL64.zip own.rf.exr own.png
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "weft/fitter/FieldFit.h"

@@ -3,8 +3,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/build.sh release weft-bake weft-fit weft-synth weft-render moving-light own-model >/dev/null
-bin=$PWD/build/release/bin samples=$PWD/samples images=$PWD/docs/images
+scripts/build.sh release weft-bake weft-fit weft-synth weft-render weft-view moving-light own-model >/dev/null
+bin=$PWD/build/release/bin scripts=$PWD/scripts samples=$PWD/samples images=$PWD/docs/images
 mkdir -p out/gallery
 cd out/gallery
 
@@ -25,6 +25,14 @@ cloth weave weave --size 640x480 --light studio --shadows
 cloth environment-studio corduroy --size 420x330 --env studio
 cloth environment-sky weave --size 420x330 --env sky
 
+echo "docs/baking.md: a set of textures"
+"$samples/bricks.py" bricks
+for map in height albedo roughness; do cp bricks/$map.png "$images/bricks-$map.png"; done
+"$bin/weft-bake" --height bricks/height.png --depth 0.03 --albedo bricks/albedo.png \
+  --roughness bricks/roughness.png -o bricks.zip --quiet >/dev/null
+fit bricks.zip -o bricks.rf.exr
+picture sphere-bricks shape:sphere --material '*=bricks.rf.exr' --uv-scale 3 --filter bilinear --size 240
+
 echo "docs/gallery.md: patterns, models"
 for pattern in corduroy weave tiles bumps; do
   picture sphere-$pattern shape:sphere --material "*=$pattern.rf.exr" --uv-scale 6 --filter bilinear --size 240
@@ -42,6 +50,9 @@ for pattern in corduroy weave; do
       --preview "$images/$pattern-$method.png" --quiet >/dev/null
   done
 done
+
+echo "docs/viewer.md: a window"
+"$scripts/window-picture.py" "$images/viewer.png" 800x520 "$bin/weft-view" weave.rf.exr --size 800x520
 
 echo "docs/your-rti.md: photographs under many lights"
 "$bin/weft-bake" --pattern tiles --size 128 -o tiles-128.zip --quiet >/dev/null

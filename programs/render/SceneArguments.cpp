@@ -81,10 +81,11 @@ bool readFile(const std::string& text, std::map<std::string, std::string>& files
 }  // namespace
 
 void SceneArguments::addTo(CLI::App& options) {
-  options.add_option("SCENE", scene,
-                     "a .gltf or .glb file, or shape:plane (side 1 at z = 0, facing +Z: columns of the "
-                     "material's image run along +X, its rows down, along -Y), shape:sphere (radius 1, "
-                     "poles on Y), shape:cloth (draped over a ball; up is +Y)");
+  options.add_option(
+      "SCENE", scene,
+      "a .gltf or .glb file, or shape:plane (longer side 1, at z = 0, facing +Z: columns of the "
+      "material's image run along +X, its rows down, along -Y), shape:sphere (radius 1, "
+      "poles on Y), shape:cloth (draped over a ball; up is +Y)");
   options.add_option("--camera", camera,
                      "a camera of the file, or x,y,z:tx,ty,tz: from where to what; default: the file's "
                      "first, or all of the scene");
