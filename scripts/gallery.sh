@@ -4,8 +4,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/build.sh release weft-bake weft-fit weft-synth weft-render weft-view moving-light own-model >/dev/null
-bin=$PWD/build/release/bin scripts=$PWD/scripts samples=$PWD/samples images=$PWD/docs/images
-mkdir -p out/gallery
+bin=$PWD/build/release/bin scripts=$PWD/scripts samples=$PWD/samples pages=$PWD/docs/images
+images=$PWD/out/gallery/images
+rm -rf "$images"
+mkdir -p "$images"
 cd out/gallery
 
 fit() { "$bin/weft-fit" "$@" --quiet >/dev/null; } # INPUT -o FIELD OPTIONS...
@@ -63,6 +65,10 @@ rti rti-above 0,0,4
 rti rti-left -4,0,1
 rti rti-top 0,4,1
 
+echo "docs/gltf.md: materials of glTF"
+"$samples/gltf-materials.py" materials.gltf
+picture gltf-materials materials.gltf --env studio --size 880x300
+
 echo "docs/your-scene.md, docs/your-program.md, docs/your-model.md"
 "$samples/stool.py" stool.glb
 picture scene-plain stool.glb --size 480x360 --camera 0.9,0.75,1.1:0,0.25,0 --shadows
@@ -71,6 +77,9 @@ picture scene stool.glb --material seat=corduroy.rf.exr --material floor=tiles.r
 "$bin/moving-light" corduroy.rf.exr light 12
 for step in 11 1 3; do cp light-$step.png "$images/"; done
 "$bin/own-model" corduroy.zip slope.rf.exr "$images/own-model.png"
+
+rm -f "$pages"/* # what is not made here is in no page
+cp "$images"/* "$pages"
 
 echo "docs/gltf.md: materials"
 "$samples/gltf-materials.py" materials.gltf
