@@ -56,6 +56,14 @@ done
 echo "docs/viewer.md: a window"
 "$scripts/window-picture.py" "$images/viewer.png" 800x520 "$bin/weft-view" weave.rf.exr --size 800x520
 
+echo "docs/stochastic-tiling.md"
+for pattern in bumps corduroy; do
+  for tiling in repeat stochastic; do
+    picture tiling-$tiling-$pattern shape:plane --material "*=$pattern.rf.exr" --uv-scale 8 --size 240 \
+      --tiling $tiling --camera 0,-0.3,1.1:0,0,0
+  done
+done
+
 echo "docs/your-rti.md: photographs under many lights"
 "$bin/weft-bake" --pattern tiles --size 128 -o tiles-128.zip --quiet >/dev/null
 "$samples/rti.py" tiles-128.zip relief

@@ -35,5 +35,5 @@ void main() {
     PlaceShare at = placeAt(i, texcoord * textureScale, size);
     radiance += at.share * radianceOf(at.place, view, frame, environment);
   } while (++i < placeCount);
-  color = shown(vec4(tint * radiance, 1.0));
+  color = shown(vec4(tint * max(radiance, 0.0), 1.0));  // shares may be below 0
 }

@@ -121,6 +121,12 @@ void SceneArguments::addTo(CLI::App& options) {
                   "times as much, and shows the coarser levels of loom")
       ->check(CLI::IsMember({"nearest", "bilinear"}))
       ->capture_default_str();
+  options
+      .add_option("--tiling", tiling,
+                  "how samples without a --map cover a surface: repeat, or stochastic: pieces at random, "
+                  "blended; of loom alone, for four times the work")
+      ->check(CLI::IsMember({"repeat", "stochastic"}))
+      ->capture_default_str();
   options.add_option("--env", environment,
                      "light from all sides, and background: an equirectangular .hdr or .exr, or the built-in "
                      "studio or sky; together with lights that are asked for or the file's");
@@ -171,6 +177,7 @@ tl::expected<SceneOptions, std::string> SceneArguments::parse() const {
   options.btf = {.textureScale = glm::vec2(uvScale),
                  .interpolatedViews = views,
                  .filter = filter == "nearest" ? TexelFilter::Nearest : TexelFilter::Bilinear,
+                 .tiling = tiling == "stochastic" ? Tiling::Stochastic : Tiling::Repeat,
                  .preparedForEnvironments = !environment.empty() && environmentLobes == "fitted"};
   return options;
 }

@@ -23,6 +23,7 @@ struct SceneArguments {
   float uvScale = 1.0f;
   int views = 3;
   std::string filter = "bilinear";
+  std::string tiling = "repeat";
   std::optional<double> time;
   std::string animation;
   std::string environment;

@@ -164,6 +164,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
                                 {"samples", arguments.samples},
                                 {"views", arguments.scene.views},
                                 {"filter", arguments.scene.filter},
+                                {"tiling", arguments.scene.tiling},
                                 {"materials", setup.scene().materials},
                                 {"environment", sceneOptions->environment},
                                 {"warnings", warnings},

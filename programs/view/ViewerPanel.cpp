@@ -78,7 +78,8 @@ void drawLamps(ViewerState& state) {
 }
 
 void drawOptions(ViewerState& state, std::size_t number) {
-  BTFMaterialOptions options = state.view()->fields[number].material->options();
+  const BTFMaterial& material = *state.view()->fields[number].material;
+  BTFMaterialOptions options = material.options();
   bool changed = false;
   float scale = options.textureScale.x;
   if (ImGui::SliderFloat("scale", &scale, 0.1f, 100.0f, kLogarithmic, ImGuiSliderFlags_Logarithmic)) {
@@ -95,6 +96,12 @@ void drawOptions(ViewerState& state, std::size_t number) {
   bool interpolates = options.interpolatedViews == 3;
   if (ImGui::Checkbox("between views", &interpolates)) {
     options.interpolatedViews = interpolates ? 3 : 1;
+    changed = true;
+  }
+  bool isStochastic = options.tiling == Tiling::Stochastic;
+  if (material.textures()->tilesAtRandom() && !material.map() &&
+      ImGui::Checkbox("tiled at random", &isStochastic)) {
+    options.tiling = isStochastic ? Tiling::Stochastic : Tiling::Repeat;
     changed = true;
   }
   if (changed) state.setOptions(number, options);

@@ -1,5 +1,6 @@
-// What a frame with a coordinate map costs beside one without: three views, 512 x 512, near (a
-// texel is larger than a pixel), and farther and farther away.
+// What a frame with a coordinate map, or with stochastic tiling where the model has it, costs
+// beside one without: three views, 512 x 512, near (a texel is larger than a pixel), and farther
+// and farther away.
 //
 //   map_frame_bench FIELD.rf.exr [FRAMES [PATCH]]
 //
@@ -82,11 +83,22 @@ Result<void> measure(const char* file, int frames, int patch) {
       WEFT_TRY(const auto mapped, BTFMaterial::create(textures, {.textureScale = glm::vec2(texels / kSurface),
                                                                  .filter = filter}));
       WEFT_TRY_VOID(mapped->setMap(map));
-      WEFT_TRY(const auto times, timeFrames(window->context(), {lit(plain), lit(mapped)}, frames));
+      std::vector<std::shared_ptr<Node>> scenes;
+      scenes.push_back(lit(plain));
+      scenes.push_back(lit(mapped));
+      if (textures->tilesAtRandom()) {
+        WEFT_TRY(auto random, BTFMaterial::create(textures, {.textureScale = glm::vec2(scale),
+                                                             .filter = filter,
+                                                             .tiling = Tiling::Stochastic}));
+        scenes.push_back(lit(std::move(random)));
+      }
+      WEFT_TRY(const auto times, timeFrames(window->context(), scenes, frames));
       const auto median = [&](int i) { return times[static_cast<std::size_t>(i)][times[0].size() / 2]; };
       fmt::print("{:8}, {:5} texels across: without a map {:6.2f} ms, with one {:6.2f} ms: {:.2f} times\n",
                  filter == TexelFilter::Nearest ? "nearest" : "bilinear", texels, median(0), median(1),
                  median(1) / median(0));
+      if (times.size() > 2)
+        fmt::print("{:40} tiled at random {:6.2f} ms: {:.2f} times\n", "", median(2), median(2) / median(0));
     }
   return {};
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "FilteredField.h"
 #include "GltfScenes.h"
 #include "PatchMap.h"
 #include "TestField.h"
@@ -550,6 +551,31 @@ TEST(BtfExtension, NamesACoordinateMap) {
   EXPECT_THAT(with.files, testing::Contains(map));
   test::requireDone(writeBtfExtension(file, file, {{"base", {field, {1, 1}}}}));
   EXPECT_THAT(readText(file), testing::Not(HasSubstr("coords")));
+}
+
+TEST(BtfExtension, TilesAtRandom) {
+  const auto file = writtenGltf(kForeign);
+  const auto field = file.parent_path() / "a.rf.exr";
+  test::requireDone(writeReflectanceField(test::filteredField(8), field));
+  const BtfExtension stochastic{.field = field, .tiling = Tiling::Stochastic};
+  test::requireDone(writeBtfExtension(file, file, {{"base", stochastic}}));
+  const auto tilingOf = [](const GltfScene& scene) {
+    const auto* shown = dynamic_cast<const BTFMaterial*>(drawnIn(scene).at(0).material.get());
+    return shown ? std::optional(shown->options().tiling) : std::nullopt;
+  };
+  EXPECT_EQ(tilingOf(valueOf(loadGltf(file))), Tiling::Stochastic);
+  test::writeText(file, replaced(readText(file), "stochastic", "hexagonal"));
+  const auto refused = loadGltf(file);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), HasSubstr("neither repeat nor stochastic"));
+
+  test::requireDone(writeBtfExtension(file, file, {{"base", {field, {1, 1}}}}));
+  EXPECT_EQ(tilingOf(valueOf(loadGltf(file))), Tiling::Repeat);
+  EXPECT_EQ(tilingOf(valueOf(loadGltf(file, {.btf = {.tiling = Tiling::Stochastic}}))), Tiling::Stochastic);
+  test::requireDone(writeReflectanceField(test::testField(), field));
+  const GltfScene other = valueOf(loadGltf(file, {.btf = {.tiling = Tiling::Stochastic}}));
+  EXPECT_EQ(tilingOf(other), std::nullopt);
+  EXPECT_THAT(other.warnings, testing::Contains(HasSubstr("cannot be tiled at random")));
 }
 
 TEST(BtfExtension, LeavesTheBinaryChunkAsItIs) {

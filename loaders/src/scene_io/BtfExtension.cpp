@@ -58,7 +58,7 @@ bool extendMaterials(Json& root, const std::string& name, const Json& values) {
   for (Json& material : root["materials"]) {
     if (!material.is_object() || !material.contains("name") || material["name"] != name) continue;
     Json& extension = memberObject(memberObject(material, "extensions"), kName);
-    extension.erase("map");  // an earlier one
+    for (const char* earlier : {"map", "tiling"}) extension.erase(earlier);
     extension.update(values);
     found = true;
   }
@@ -100,6 +100,7 @@ Json valuesOf(const BtfExtension& extension, const std::filesystem::path& folder
               {"scale", {extension.scale.x, extension.scale.y}},
               {"texCoord", extension.texCoord}};
   if (!extension.map.empty()) values["map"] = uriOf(extension.map);
+  if (extension.tiling == Tiling::Stochastic) values["tiling"] = "stochastic";
   return values;
 }
 

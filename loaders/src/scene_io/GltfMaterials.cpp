@@ -44,6 +44,16 @@ void leaveOutTangents(PBROptions& options) {
   options.anisotropy = {};
 }
 
+/// The file's, or else `standard`.
+Result<Tiling> btfTiling(const GltfFile& file, const tinygltf::Value& extension, Tiling standard) {
+  // A map is a tiling of its own.
+  if (!extension.Has("tiling")) return extension.Has("map") ? Tiling::Repeat : standard;
+  const auto& name = extension.Get("tiling").Get<std::string>();
+  if (name == "repeat") return Tiling::Repeat;
+  if (name == "stochastic") return Tiling::Stochastic;
+  return file.fail("the tiling of " + std::string(kBtfExtension) + " is neither repeat nor stochastic");
+}
+
 }  // namespace
 
 Result<MeshDress> GltfMaterials::get(int index, Shading shading) {
@@ -97,6 +107,7 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   dress.sets = {dress.placement.set, dress.placement.set == 0 ? 1 : 0};
   BTFMaterialOptions options = options_.btf;
   options.textureScale *= scale;
+  WEFT_TRY(options.tiling, btfTiling(file_, extension, options.tiling));
   options.doubleSided |= material.doubleSided;
   auto made = loadField(material, extension, options);
   if (!made) {

@@ -80,7 +80,7 @@ constexpr const char* kShapes = R"({
       "KHR_materials_transmission": {"transmissionFactor": "number", "transmissionTexture": "texture"},
       "KHR_materials_unlit": {},
       "WEFT_materials_btf": {
-        "uri!": "string", "map": "string", "scale": ["number"], "texCoord": "index",
+        "uri!": "string", "map": "string", "tiling": "string", "scale": ["number"], "texCoord": "index",
         "extensions": {"KHR_texture_transform": "transform"}
       }
     }

@@ -92,6 +92,8 @@ Result<std::shared_ptr<const BTFTextures>> BTFTextures::create(const Reflectance
   made->size_ = {field.width(), field.height()};
   made->views_ = static_cast<int>(field.description().views.size());
   made->filtersParameters_ = field.model().filtersParameters();
+  const FloatImage& coarsest = field.levels().back().shared;
+  made->tilesAtRandom_ = made->filtersParameters_ && coarsest.width() == 1 && coarsest.height() == 1;
   made->sumsLevels_ = field.model().summedLevels() > 0;
   made->setProgram(FieldProgram::create(field));
   const bool prepared = preparedForEnvironments && FieldTextures::canBePrepared(field.formula());

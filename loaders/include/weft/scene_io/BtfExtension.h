@@ -6,15 +6,17 @@
 #include <string>
 
 #include "weft/core/Result.h"
+#include "weft/materials/BTFMaterialOptions.h"
 
 namespace weft {
 
 /// What docs/gltf-extension.md says of a material with WEFT_materials_btf.
 struct BtfExtension {
-  std::filesystem::path field;  ///< the .rf.exr; written relative to the glTF file
-  glm::vec2 scale{1.0f};        ///< repetitions per unit of texture coordinates, positive
-  int texCoord = 0;             ///< the set of texture coordinates
-  std::filesystem::path map{};  ///< a .coords.exr, likewise; empty: the sample repeats
+  std::filesystem::path field;     ///< the .rf.exr; written relative to the glTF file
+  glm::vec2 scale{1.0f};           ///< repetitions per unit of texture coordinates, positive
+  int texCoord = 0;                ///< the set of texture coordinates
+  std::filesystem::path map{};     ///< a .coords.exr, likewise; empty: none
+  Tiling tiling = Tiling::Repeat;  ///< without a map
 };
 
 /// Copies a glTF file, .gltf or .glb, and gives materials, by name, a reflectance field. Everything

@@ -1,40 +1,16 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <memory>
 
 #include "weft/chunks/UniformBlockChunk.h"
 #include "weft/core/Result.h"
 #include "weft/materials/BTFMap.h"
+#include "weft/materials/BTFMaterialOptions.h"
 #include "weft/materials/BTFTextures.h"
 #include "weft/materials/ChunkMaterial.h"
 
 namespace weft {
-
-/// What is between the centres of texels. Where the hardware filters a model's parameters
-/// (BTFTextures::filtersParameters()), Bilinear also filters between levels, for one texel's work.
-enum class TexelFilter {
-  Nearest,   ///< the nearest texel: fast, with edges where texels are larger than pixels
-  Bilinear,  ///< the results of the four nearest texels, mixed: four times the work
-};
-
-struct BTFMaterialOptions {
-  /// Repetitions of the material, or of the map's surface, per unit of texture coordinates;
-  /// positive, because a mirrored image would need mirrored directions.
-  glm::vec2 textureScale{1.0f};
-  glm::vec3 tint{1.0f};   ///< linear; what is shown is multiplied by it
-  float exposure = 0.0f;  ///< stops: what is shown is multiplied by 2 to their power
-  int interpolatedViews =
-      /// 3: [Meseth 2004] eq. 4; 1: the nearest measured view alone, faster, with seams between
-      /// views
-      3;
-  TexelFilter filter = TexelFilter::Nearest;
-  /// BTFTextures::create()'s, where a field or a file is given; textures are prepared or not.
-  bool preparedForEnvironments = false;
-  /// draw back faces, too, with the relief of the front seen in the mirror
-  bool doubleSided = false;
-};
 
 /// A measured material, rendered from its reflectance field under point and directional lights
 /// ([Meseth 2004] 5.1 and 5.4) and an environment (5.2): shared textures, and how they are shown.

@@ -44,6 +44,8 @@ class BTFTextures {
   const FieldBlock& block() const { return block_; }
   /// Whether the hardware filters the parameters, over all levels.
   bool filtersParameters() const { return filtersParameters_; }
+  /// Whether they do so down to one texel, the mean, which stochastic tiling needs.
+  bool tilesAtRandom() const { return tilesAtRandom_; }
   /// Whether its model sums levels (ReflectanceModel::summedLevels()).
   bool sumsLevels() const { return sumsLevels_; }
   /// How many measured lights a pixel adds up under an environment; 0 where the model has a formula
@@ -62,6 +64,7 @@ class BTFTextures {
   FieldBlock block_;
   int environmentLights_ = 0;
   bool filtersParameters_ = false;
+  bool tilesAtRandom_ = false;
   bool sumsLevels_ = false;
 };
 
