@@ -62,8 +62,9 @@ Result<void> writeSynthesisReport(const AppearanceSample& sample, const Coordina
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     report.heading(captions[i]);
     WEFT_TRY(ReportPicture own, pictureOf(pictures[i], "The sample."));
-    WEFT_TRY(ReportPicture side, pictureOf(mappedPicture(pictures[i], tiled), "Tiled."));
-    WEFT_TRY(ReportPicture result, pictureOf(mappedPicture(pictures[i], map), "Synthesised."));
+    WEFT_TRY(ReportPicture side, pictureOf(mappedPicture(pictures[i], tiled, kLargestPicture), "Tiled."));
+    WEFT_TRY(ReportPicture result,
+             pictureOf(mappedPicture(pictures[i], map, kLargestPicture), "Synthesised."));
     WEFT_TRY_VOID(report.pictures(std::array{std::move(own), std::move(side), std::move(result)}));
   }
   return report.write(path);

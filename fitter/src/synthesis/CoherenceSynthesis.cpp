@@ -70,7 +70,8 @@ class CoherentLayer {
     const auto below = [&](int count) {
       return static_cast<int>(random_() % static_cast<std::uint64_t>(count));
     };
-    return (s + below(sample_.height - 2 * s)) * sample_.width + s + below(sample_.width - 2 * s);
+    const int row = s + below(sample_.height - 2 * s);
+    return row * sample_.width + s + below(sample_.width - 2 * s);
   }
 
   static int wrapped(int i, int size) {

@@ -67,12 +67,12 @@ Result<std::vector<FloatImage>> samplePictures(const BtfSource& source,
   return pictures;
 }
 
-FloatImage mappedPicture(const FloatImage& sample, const CoordinateMap& map) {
+FloatImage mappedPicture(const FloatImage& sample, const CoordinateMap& map, int mostASide) {
   WEFT_EXPECT(sample.width() == map.sampleWidth() && sample.height() == map.sampleHeight(),
               "the map is of this sample");
-  FloatImage picture(map.width(), map.height(), sample.channels());
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x) {
+  FloatImage picture(std::min(map.width(), mostASide), std::min(map.height(), mostASide), sample.channels());
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
       const glm::ivec2 texel = map.at(x, y);
       std::ranges::copy(sample.texel(texel.x, texel.y), picture.texel(x, y).begin());
     }

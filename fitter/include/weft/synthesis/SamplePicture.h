@@ -27,7 +27,9 @@ Result<std::vector<FloatImage>> samplePictures(const BtfSource& source,
                                                std::span<const PictureDirections> directions,
                                                std::size_t memory);
 
-/// A picture of the surface that a map makes of a sample.
-FloatImage mappedPicture(const FloatImage& sample, const CoordinateMap& map);
+/// A picture of the surface that a map makes of a sample: of its first `mostASide` rows and
+/// columns.
+FloatImage mappedPicture(const FloatImage& sample, const CoordinateMap& map,
+                         int mostASide = CoordinateMap::kLargestSide);
 
 }  // namespace weft
