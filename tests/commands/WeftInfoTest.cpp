@@ -171,6 +171,17 @@ TEST(WeftInfo, DescribesAScene) {
   expectRefused(runProgram("weft-info", {file.string()}), "scene.gltf: ");
 }
 
+TEST(WeftInfo, AsksForNoTextureCoordinatesWhereNothingHasTextures) {
+  const fs::path file = test::testFolder() / "scene.gltf";
+  const auto warningsOf = [&](const std::string& material) {
+    std::ofstream(file) << test::replaced(test::planeGltf(material), R"(,"TEXCOORD_0":2)", "");
+    return json::parse(runProgram("weft-info", {file.string(), "--json", "-"}).out).at("warnings").size();
+  };
+  EXPECT_EQ(warningsOf("{}"), 0u);
+  EXPECT_EQ(warningsOf(R"({"extensions":{"WEFT_materials_btf":{"uri":"none.rf.exr"}}})"), 1u);
+  EXPECT_EQ(warningsOf(R"({"normalTexture":{"index":0}})"), 1u);
+}
+
 TEST(WeftInfo, SaysTheEncodingOfTheFile) {
   const auto model = valueOf(ModelRegistry::builtin().create({.name = "ptm"}));
   ReflectanceFieldDescription about;

@@ -267,6 +267,26 @@ TEST_F(GltfFeatureTest, AlphaModes) {
   EXPECT_NEAR(alphaOf(R"(,"alphaMode":"BLEND")"), 0.4f, 1e-5f);
 }
 
+// Blender calls opaque things blended, too: by depth they hide what is behind.
+TEST_F(GltfFeatureTest, BlendedThingsThatHideAllAreOpaque) {
+  const auto modeOf = [&](const std::string& pbr) {
+    file["materials"] =
+        Json::array({Json::parse(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{)" + pbr + "}}")});
+    return dynamic_cast<const PBRMaterial&>(*drawnIn(loaded(file)).at(0).material).options().alphaMode;
+  };
+  EXPECT_EQ(modeOf(""), AlphaMode::Opaque);
+  EXPECT_EQ(modeOf(R"("baseColorFactor":[1,1,1,0.99])"), AlphaMode::Blend);
+  const std::string textured = R"("baseColorTexture":{"index":0})";
+  writeTexture(2, {{1, 2, 3, 255}, {1, 2, 3, 255}, {1, 2, 3, 255}, {1, 2, 3, 255}});
+  EXPECT_EQ(modeOf(textured), AlphaMode::Opaque);
+  writeTexture(2, {{1, 2, 3, 255}, {1, 2, 3, 255}, {1, 2, 3, 255}, {1, 2, 3, 254}});
+  EXPECT_EQ(modeOf(textured), AlphaMode::Blend);
+  writeTexture(1, {{1, 2, 3}});
+  EXPECT_EQ(modeOf(textured), AlphaMode::Opaque);
+  primitive()["attributes"]["COLOR_0"] = primitive()["attributes"]["TANGENT"];
+  EXPECT_EQ(modeOf(textured), AlphaMode::Blend) << "vertices may have alpha";
+}
+
 // Each texture of the extensions lies where its own transform puts it: on one texel of four.
 TEST_F(GltfFeatureTest, TexturesOfExtensionsAreTransformed) {
   writeTexture(2, {{255, 255, 255, 255}, {90, 120, 60, 100}, {30, 10, 20, 10}, {200, 220, 240, 200}});

@@ -200,7 +200,9 @@ TEST(GltfScene, ReadsTheFactorsOfAMaterial) {
   EXPECT_EQ(plain.roughness, 1.0f);
   EXPECT_EQ(plain.alphaMode, AlphaMode::Opaque);
   EXPECT_TRUE(pbrOf(R"({"extensions":{"KHR_materials_unlit":{}}})").unlit);
-  EXPECT_EQ(pbrOf(R"({"alphaMode":"BLEND"})").alphaMode, AlphaMode::Blend);
+  EXPECT_EQ(
+      pbrOf(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})").alphaMode,
+      AlphaMode::Blend);
 }
 
 /// The plane with a second set of texture coordinates, those of its corners mirrored, and a

@@ -93,7 +93,7 @@ TEST(SceneSetup, WarnsWhereASampleRepeatsTooSeldomOrTooOften) {
   const std::vector<glm::vec3> someViews{directionFromDegrees(60, 0), directionFromDegrees(60, 120),
                                          directionFromDegrees(60, 240)};
   test::writeConstantField(field, glm::vec3(1), 4, 4, someViews);
-  EXPECT_THAT(warningsOf(1.0f, 5), ElementsAre(HasSubstr("seen 1 times each way, so large that it may look "
+  EXPECT_THAT(warningsOf(1.0f, 5), ElementsAre(HasSubstr("seen once each way, so large that it may look "
                                                          "plain; --uv-scale 20 shows it 20 times")));
   EXPECT_THAT(warningsOf(2.01f, 5), IsEmpty());
   EXPECT_THAT(warningsOf(199.0f, 5), IsEmpty());

@@ -241,7 +241,7 @@ class SceneReader {
     std::vector<Primitive> primitives;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (!primitive.attributes.contains("POSITION")) continue;  // glTF: it is not drawn
-      WEFT_TRY(const MeshDress dress, materials_.get(primitive.material, shadingOf(primitive)));
+      WEFT_TRY(const MeshDress dress, materials_.get(primitive.material, wearerOf(file_, primitive)));
       WEFT_TRY(std::shared_ptr<const Geometry> geometry, geometryOf(primitive, dress, pose));
       primitives.push_back({std::make_shared<MaterialGroup>(dress.material), std::move(geometry)});
     }

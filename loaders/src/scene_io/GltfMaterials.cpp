@@ -28,6 +28,15 @@ Result<glm::vec2> btfScale(const GltfFile& file, const tinygltf::Value& extensio
   return value;
 }
 
+/// A program's own material needs texture coordinates where it is a measured one, or where what it
+/// takes the place of has textures.
+MeshDress dressOf(std::shared_ptr<const Material> made, const std::string& json) {
+  const bool isMeasured = dynamic_cast<const BTFMaterial*>(made.get()) != nullptr;
+  const bool hadTextures =
+      json.find("Texture\"") != std::string::npos || json.find(kBtfExtension) != std::string::npos;
+  return {.material = std::move(made), .usesTexcoords = isMeasured || hadTextures};
+}
+
 /// The textures of a material, first those in whose set of texture coordinates the tangents of a
 /// mesh must lie.
 std::vector<PBRTexture*> tangentTexturesFirst(PBROptions& options) {
@@ -56,17 +65,19 @@ Result<Tiling> btfTiling(const GltfFile& file, const tinygltf::Value& extension,
 
 }  // namespace
 
-Result<MeshDress> GltfMaterials::get(int index, Shading shading) {
-  if (const auto found = made_.find({index, shading}); found != made_.end()) return found->second;
+Result<MeshDress> GltfMaterials::get(int index, Wearer wearer) {
   if (index < -1 || index >= static_cast<int>(file_.model.materials.size()))
     return file_.fail("material " + std::to_string(index) + " does not exist");
-  const tinygltf::Material material =
-      index < 0 ? tinygltf::Material() : file_.model.materials[static_cast<std::size_t>(index)];
-  WEFT_TRY(MeshDress dress, make(index, material, shading));
+  const tinygltf::Material plain;
+  const tinygltf::Material& material =
+      index < 0 ? plain : file_.model.materials[static_cast<std::size_t>(index)];
+  wearer.hasAlpha &= material.alphaMode == "BLEND";
+  if (const auto found = made_.find({index, wearer}); found != made_.end()) return found->second;
+  WEFT_TRY(MeshDress dress, make(index, material, wearer));
   if (material.normalTexture.index >= 0) {
     WEFT_TRY(dress.tangentSet, tangentSetOf(file_, material));
   }
-  return made_[{index, shading}] = std::move(dress);
+  return made_[{index, wearer}] = std::move(dress);
 }
 
 std::vector<std::string> GltfMaterials::names() const {
@@ -81,7 +92,7 @@ std::vector<std::string> GltfMaterials::names() const {
   return names;
 }
 
-Result<MeshDress> GltfMaterials::make(int index, const tinygltf::Material& material, Shading shading) {
+Result<MeshDress> GltfMaterials::make(int index, const tinygltf::Material& material, const Wearer& wearer) {
   auto replacement = options_.replacements.find(material.name);
   if (replacement == options_.replacements.end()) replacement = options_.replacements.find("*");
   if (replacement != options_.replacements.end())
@@ -91,13 +102,12 @@ Result<MeshDress> GltfMaterials::make(int index, const tinygltf::Material& mater
     if (const auto& texts = file_.contents.materials; static_cast<std::size_t>(index) < texts.size())
       source.json = texts[static_cast<std::size_t>(index)];
     WEFT_TRY(std::shared_ptr<const Material> made, options_.makeMaterial(source));
-    if (made) return MeshDress{.material = std::move(made), .usesTexcoords = true};
+    if (made) return dressOf(std::move(made), source.json);
   }
-  return material.extensions.contains(kBtfExtension) ? makeBtf(material, shading)
-                                                     : makePbr(material, shading);
+  return material.extensions.contains(kBtfExtension) ? makeBtf(material, wearer) : makePbr(material, wearer);
 }
 
-Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Shading shading) {
+Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, const Wearer& wearer) {
   const tinygltf::Value& extension = material.extensions.at(kBtfExtension);
   WEFT_TRY(const glm::vec2 scale, btfScale(file_, extension));
   WEFT_TRY(const std::vector<double> set, numbersOf(file_, kBtfExtension, extension, "texCoord", {0.0}));
@@ -113,7 +123,7 @@ Result<MeshDress> GltfMaterials::makeBtf(const tinygltf::Material& material, Sha
   if (!made) {
     warnings_.push_back("the reflectance field of " + quoted(material) +
                         " is left out, its own maps take its place: " + made.error().message());
-    return makePbr(material, shading);
+    return makePbr(material, wearer);
   }
   dress.material = std::move(*made);
   return dress;
@@ -132,10 +142,17 @@ Result<std::shared_ptr<BTFMaterial>> GltfMaterials::loadField(const tinygltf::Ma
   return made;
 }
 
-Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, Shading shading) {
+bool GltfMaterials::isOpaque(const PBROptions& options, const Wearer& wearer) const {
+  const PBRTexture& base = options.baseColorTexture;
+  return options.alphaMode == AlphaMode::Blend && options.baseColor.a == 1.0f && !wearer.hasAlpha &&
+         (!base.image || textures_.isOpaque(*base.image));
+}
+
+Result<MeshDress> GltfMaterials::makePbr(const tinygltf::Material& material, const Wearer& wearer) {
   WEFT_TRY(PBROptions options, GltfPbr(file_, textures_).read(material));
-  if (shading != Shading::Full) leaveOutTangents(options);
-  if (shading == Shading::Unlit) options.unlit = true;
+  if (wearer.shading != Shading::Full) leaveOutTangents(options);
+  if (wearer.shading == Shading::Unlit) options.unlit = true;
+  if (isOpaque(options, wearer)) options.alphaMode = AlphaMode::Opaque;
 
   // Rough glass blurs what is behind it.
   constexpr float kVisiblyRough = 0.1f;

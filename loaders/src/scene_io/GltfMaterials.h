@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <map>
 #include <memory>
 #include <utility>
@@ -15,6 +16,14 @@ namespace weft {
 /// What glTF makes lighting depend on: lines and points without normals are shown without it, those
 /// without tangents have nothing that lies along them.
 enum class Shading { Full, WithoutTangents, Unlit };
+
+/// What a primitive has that its material depends on.
+struct Wearer {
+  Shading shading = Shading::Full;
+  bool hasAlpha = false;  ///< in the colours of its vertices
+
+  auto operator<=>(const Wearer&) const = default;
+};
 
 /// A material, and what it asks of the meshes that wear it.
 struct MeshDress {
@@ -40,27 +49,30 @@ class GltfMaterials {
         fields_(options.fields ? options.fields : std::make_shared<FieldCache>(options.models)) {}
 
   /// `index` -1: glTF's default material.
-  Result<MeshDress> get(int index, Shading shading = Shading::Full);
+  Result<MeshDress> get(int index, Wearer wearer);
   /// Of all that get() was asked for.
   std::vector<std::string> names() const;
   /// Of these, the ones with a reflectance field.
   const std::vector<GltfScene::FieldMaterial>& fields() const { return fieldMaterials_; }
 
  private:
-  Result<MeshDress> make(int index, const tinygltf::Material& material, Shading shading);
+  Result<MeshDress> make(int index, const tinygltf::Material& material, const Wearer& wearer);
   /// Where the reflectance field is missing or broken, of the material's own maps, with a warning.
-  Result<MeshDress> makeBtf(const tinygltf::Material& material, Shading shading);
+  Result<MeshDress> makeBtf(const tinygltf::Material& material, const Wearer& wearer);
   Result<std::shared_ptr<BTFMaterial>> loadField(const tinygltf::Material& material,
                                                  const tinygltf::Value& extension,
                                                  const BTFMaterialOptions& options);
-  Result<MeshDress> makePbr(const tinygltf::Material& material, Shading shading);
+  Result<MeshDress> makePbr(const tinygltf::Material& material, const Wearer& wearer);
+  /// Whether nothing shines through although the file calls it blended, as Blender does of what it
+  /// exports: without depth the far side of a mesh would show through its near one.
+  bool isOpaque(const PBROptions& options, const Wearer& wearer) const;
 
   const GltfFile& file_;
   const GltfOptions& options_;
   std::vector<std::string>& warnings_;
   GltfTextures textures_;
   std::shared_ptr<FieldCache> fields_;
-  std::map<std::pair<int, Shading>, MeshDress> made_;
+  std::map<std::pair<int, Wearer>, MeshDress> made_;
   std::vector<GltfScene::FieldMaterial> fieldMaterials_;
 };
 

@@ -276,13 +276,24 @@ void complete(Mesh& mesh) {
   }
 }
 
-}  // namespace
-
 Shading shadingOf(const tinygltf::Primitive& primitive) {
   const bool hasSurface = primitive.mode == -1 || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
   if (hasSurface) return Shading::Full;
   if (!primitive.attributes.contains("NORMAL")) return Shading::Unlit;
   return primitive.attributes.contains("TANGENT") ? Shading::Full : Shading::WithoutTangents;
+}
+
+}  // namespace
+
+Wearer wearerOf(const GltfFile& file, const tinygltf::Primitive& primitive) {
+  Wearer wearer{.shading = shadingOf(primitive)};
+  const auto colors = primitive.attributes.find("COLOR_0");
+  // An accessor that does not exist is told where it is read.
+  if (colors != primitive.attributes.end() && colors->second >= 0 &&
+      static_cast<std::size_t>(colors->second) < file.model.accessors.size())
+    wearer.hasAlpha =
+        file.model.accessors[static_cast<std::size_t>(colors->second)].type == TINYGLTF_TYPE_VEC4;
+  return wearer;
 }
 
 std::string meshKey(const tinygltf::Primitive& primitive, const MeshDress& dress, const MeshPose& pose) {

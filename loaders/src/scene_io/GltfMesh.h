@@ -16,8 +16,8 @@ struct MeshPose {
   std::vector<glm::mat4> joints{};    ///< of the skin, of the vertices; empty: not skinned
 };
 
-/// What glTF says of lighting a primitive like this (glTF 2.0, 3.9.5).
-Shading shadingOf(const tinygltf::Primitive& primitive);
+/// What its material must know of a primitive; how it is lit: glTF 2.0, 3.9.5.
+Wearer wearerOf(const GltfFile& file, const tinygltf::Primitive& primitive);
 
 /// A text that is the same for primitives that become the same mesh, but for a skin.
 std::string meshKey(const tinygltf::Primitive& primitive, const MeshDress& dress, const MeshPose& pose);

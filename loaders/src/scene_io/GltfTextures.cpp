@@ -44,6 +44,14 @@ Image roughnessFrom(const Image& image, float factor) {
   return roughness;
 }
 
+bool isOpaqueImage(const Image& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  if (channels % 2 != 0) return true;
+  for (std::size_t alpha = channels - 1; alpha < image.bytes.size(); alpha += channels)
+    if (image.bytes[alpha] != 255) return false;
+  return true;
+}
+
 }  // namespace
 
 Result<GltfTextures::Source> GltfTextures::sourceOf(int index, const std::string& use) {
@@ -74,6 +82,15 @@ Result<std::shared_ptr<const TextureChunk>> GltfTextures::get(int index, bool sr
   else if (source.pixels.image)
     chunk = std::make_shared<const TextureChunk>(std::move(source.pixels.image), source.options);
   return chunks_[{index, srgb}] = chunk;
+}
+
+bool GltfTextures::isOpaque(const TextureChunk& made) const {
+  for (const auto& [key, chunk] : chunks_) {
+    if (chunk.get() != &made) continue;
+    const int source = file_.model.textures[static_cast<std::size_t>(key.first)].source;
+    return isOpaqueImage(*images_.at(source).image);
+  }
+  return false;
 }
 
 Result<std::shared_ptr<const TextureChunk>> GltfTextures::roughnessOf(int index, float factor,

@@ -21,6 +21,8 @@ class GltfTextures {
   /// The roughness, in g, that a texture with a glossiness in its alpha says: 1 - `factor` * alpha.
   /// Null where it has no alpha, and like get().
   Result<std::shared_ptr<const TextureChunk>> roughnessOf(int texture, float factor, const std::string& use);
+  /// Whether every texel of a texture that get() made hides what is behind it.
+  bool isOpaque(const TextureChunk& made) const;
 
  private:
   /// An image, and where its file has 16 bits, all of them, which colours need not.

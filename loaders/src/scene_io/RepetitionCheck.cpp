@@ -25,6 +25,11 @@ std::string about(double number) {
   return number < 10.0 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
 }
 
+std::string timesAbout(double number) {
+  const std::string text = about(number);
+  return text == "1" ? "once" : text + " times";
+}
+
 }  // namespace
 
 std::vector<std::string> repetitionWarnings(const Node& root, const Camera& camera,
@@ -37,9 +42,9 @@ std::vector<std::string> repetitionWarnings(const Node& root, const Camera& came
     if (repetitions >= kFewest && repetitions <= kMost) continue;
     const double suiting = kSuiting / repetitions * double{options.btf.textureScale.x};
     warnings.push_back(fmt::format(
-        "the sample of a reflectance field, {} x {} texels, is seen {} times each way, so {}; --uv-scale {} "
+        "the sample of a reflectance field, {} x {} texels, is seen {} each way, so {}; --uv-scale {} "
         "shows it {} times",
-        material->textures()->size().x, material->textures()->size().y, about(repetitions),
+        material->textures()->size().x, material->textures()->size().y, timesAbout(repetitions),
         repetitions < kFewest ? "large that it may look plain" : "small that it may blur", about(suiting),
         kSuiting));
   }
