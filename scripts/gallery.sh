@@ -88,7 +88,3 @@ for step in 11 1 3; do cp light-$step.png "$images/"; done
 
 rm -f "$pages"/* # what is not made here is in no page
 cp "$images"/* "$pages"
-
-echo "docs/gltf.md: materials"
-"$samples/gltf-materials.py" materials.gltf
-picture gltf-materials materials.gltf --env studio --size 880x300

@@ -35,5 +35,6 @@ void main() {
     PlaceShare at = placeAt(i, texcoord * textureScale, size);
     radiance += at.share * radianceOf(at.place, view, frame, environment);
   } while (++i < placeCount);
-  color = shown(vec4(tint * max(radiance, 0.0), 1.0));  // shares may be below 0
+  vec4 light = vec4(tint * max(radiance, 0.0), 1.0);  // shares may be below 0
+  color = shownSurface(light, position, normal, texcoord * textureScale);
 }

@@ -34,5 +34,6 @@ void main() {
 #ifdef ENVIRONMENT
   radiance += environmentIntensity.w * environmentIntensity.rgb * diffuseAround(toEnvironment(n));
 #endif
-  color = shown(vec4(diffusePart * albedo.rgb * radiance, albedo.a));
+  vec4 light = vec4(diffusePart * albedo.rgb * radiance, albedo.a);
+  color = shownSurface(light, position, normal, texcoord);
 }

@@ -12,7 +12,11 @@
 
 const int maximumLights = 256;
 const int maximumShadows = 8;
+#ifdef SHOW_ALBEDO
+const int lightCount = 1;  // along the normal
+#else
 const int lightCount = DIRECTIONAL_LIGHTS + PLACED_LIGHTS;
+#endif
 
 struct Light {
   // xyz: position; of the first DIRECTIONAL_LIGHTS the direction towards the light, unit
@@ -58,6 +62,11 @@ vec3 toEye(vec3 point) {
 // Irradiance, on a surface that faces the light, at a point; `toLight` becomes the unit direction
 // towards it. `normal`: of the surface there, of any length; 0 for none.
 vec3 lightAt(int index, vec3 point, vec3 normal, out vec3 toLight) {
+#ifdef SHOW_ALBEDO
+  toLight = normal * inversesqrt(max(dot(normal, normal), 1e-30));
+  if (dot(toLight, toEye(point)) < 0.0) toLight = -toLight;
+  return vec3(3.14159265358979);
+#endif
   if (index < DIRECTIONAL_LIGHTS) {
     toLight = lights[index].place.xyz;
     return lights[index].intensity.rgb * litShare(index, point, normal, toLight, 1.0);

@@ -41,7 +41,6 @@ layout(binding = emissionUnit) uniform sampler2D emissionTexture;
 layout(binding = occlusionUnit) uniform sampler2D occlusionTexture;
 layout(binding = specularUnit) uniform sampler2D specularTexture;
 layout(binding = specularColorUnit) uniform sampler2D specularColorTexture;
-layout(binding = transmissionUnit) uniform sampler2D transmissionTexture;
 
 in vec3 position;
 in vec3 normal;
@@ -52,9 +51,6 @@ in vec4 vertexColor;
 flat in float handedness;
 
 layout(location = 0) out vec4 color;
-#ifdef TRANSMISSION
-layout(location = 0, index = 1) out vec4 passing;  // what is behind is multiplied by it
-#endif
 
 vec4 fetch(sampler2D image, int unit) {
   Placement placement = placements[unit];
@@ -80,6 +76,7 @@ vec3 mappedNormal(TangentFrame frame, vec3 texel, vec4 textureFrame, float scale
 #include "sheen.glsl"
 #include "anisotropy.glsl"
 #include "iridescence.glsl"
+#include "transmission.glsl"
 
 // What a surface is made of at one point.
 struct Surface {
@@ -114,20 +111,14 @@ vec4 baseColor() {
 }
 
 vec3 emission() {
+#ifdef SHOW_ALBEDO
+  return vec3(0.0);
+#endif
   vec3 radiance = emissionFactor.rgb;
 #ifdef EMISSION_TEXTURE
   radiance *= fetch(emissionTexture, emissionUnit).rgb;
 #endif
   return radiance;
-}
-
-// The share of what enters a dielectric that passes it.
-float transmission() {
-  float share = layerFactors.y;
-#ifdef TRANSMISSION_TEXTURE
-  share *= fetch(transmissionTexture, transmissionUnit).r;
-#endif
-  return share;
 }
 
 void readMetalAndRoughness(inout Surface surface) {
@@ -310,7 +301,11 @@ vec3 lit(vec3 base) {
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < lightCount; ++i) {
     vec3 l;
+#ifdef SHOW_ALBEDO
+    vec3 irradiance = lightAt(i, position, surface.n, l);
+#else
     vec3 irradiance = lightAt(i, position, normal, l);
+#endif
     radiance += irradiance * shownOf(surface, v, l);
   }
 #ifdef ENVIRONMENT
@@ -381,5 +376,13 @@ void main() {
 #else
   cover(1.0);
 #endif
-  color = shown(color);
+#ifdef SHOW_NORMAL
+  vec3 n = surfaceNormal(tangentFrame(normal, tangent, handedness, false));
+#else
+  vec3 n = normal;
+#endif
+  color = shownSurface(color, position, n, texcoord);
+#ifdef TRANSMISSION
+  if (!showsLight) passing = vec4(0.0);
+#endif
 }

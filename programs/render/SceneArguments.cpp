@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <sstream>
 
@@ -70,10 +71,18 @@ bool readLamp(const std::string& text, SceneOptions& options) {
   return true;
 }
 
-/// "NAME=FILE"
+/// "NAME=FILE", where both may hold a "=": at the first one behind which a file stands that is
+/// there, else at the first.
 bool readFile(const std::string& text, std::map<std::string, std::string>& files) {
-  const auto [name, file] = splitAt(text, '=');
+  auto [name, file] = splitAt(text, '=');
   if (file.empty()) return false;
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(text.substr(at + 1), none)) continue;
+    name = text.substr(0, at);
+    file = text.substr(at + 1);
+    break;
+  }
   files[name] = file;
   return true;
 }
@@ -88,7 +97,8 @@ void SceneArguments::addTo(CLI::App& options) {
       "poles on Y), shape:cloth (draped over a ball; up is +Y)");
   options.add_option("--camera", camera,
                      "a camera of the file, or x,y,z:tx,ty,tz: from where to what; default: the file's "
-                     "first, or all of the scene");
+                     "first, or all of the scene; all, of weft-render: a picture of each of the file's, "
+                     "OUTPUT-NAME.png, in the light of the first");
   options
       .add_option(
           "--light", lights,

@@ -5,13 +5,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "PictureArguments.h"
+#include "PictureLayers.h"
 #include "SceneArguments.h"
 #include "weft/io/ExrFile.h"
 #include "weft/io/ImageFile.h"
@@ -35,7 +38,9 @@ struct Arguments {
   std::filesystem::path output;
   PictureArguments picture;
   std::string show = "all";
-  int samples = 4;  ///< a pixel: a square number
+  std::vector<std::string> layers;  ///< beside the light
+  int samples = 4;                  ///< a pixel: a square number
+  bool allCameras = false;
   int turntable = 0;
   int frames = 0;
 };
@@ -46,6 +51,13 @@ tl::expected<SceneOptions, std::string> readOptions(Arguments& arguments, Pictur
   if (!read) return tl::unexpected(read.error());
   if (arguments.output.extension() != ".png" && arguments.output.extension() != ".exr")
     return tl::unexpected<std::string>("--output must end with .png or .exr");
+  arguments.allCameras = arguments.scene.camera == "all";
+  if (arguments.allCameras && arguments.turntable > 0)
+    return tl::unexpected<std::string>(
+        "--camera all and --turntable each make several pictures: one of them");
+  if (arguments.allCameras) arguments.scene.camera.clear();
+  if (!arguments.layers.empty() && arguments.output.extension() != ".exr")
+    return tl::unexpected<std::string>("--aov needs an --output that ends with .exr");
   auto options = arguments.scene.parse();
   if (!options) return options;
   size = *read;
@@ -69,18 +81,50 @@ Result<std::vector<double>> timeFrames(int count, RenderAction& renderer, GLCont
   return times;
 }
 
-/// "cloth.png" as "cloth-007.png".
-std::filesystem::path numbered(const std::filesystem::path& path, int number) {
-  return path.parent_path() /
-         fmt::format("{}-{:03}{}", path.stem().string(), number, path.extension().string());
+/// One picture that is written.
+struct Shot {
+  std::filesystem::path file;
+  Camera camera;
+  double turn = 0.0;  ///< of the scene, radians
+};
+
+/// "cloth.png" as "cloth-front.png".
+std::filesystem::path withSuffix(const std::filesystem::path& path, const std::string& suffix) {
+  return path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), suffix, path.extension().string());
 }
 
-/// The files that are written, in their order.
-std::vector<std::filesystem::path> picturesOf(const Arguments& arguments) {
-  if (arguments.turntable == 0) return {arguments.output};
-  std::vector<std::filesystem::path> files;
-  for (int i = 0; i < arguments.turntable; ++i) files.push_back(numbered(arguments.output, i));
-  return files;
+/// A name as a part of a file's: without what shells and file systems take for something else.
+std::string asFileName(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < 128 && !std::isalnum(static_cast<unsigned char>(c)) && c != '-')
+      c = '_';
+  return name.empty() ? "camera" : name;
+}
+
+/// One for each camera of the file, in its order, by their names.
+std::vector<Shot> shotsOfAllCameras(const std::filesystem::path& output, const GltfScene& scene) {
+  std::vector<Shot> shots;
+  std::map<std::string, int> uses;
+  for (const GltfScene::NamedCamera& named : scene.cameras) {
+    const std::string name = asFileName(named.name);
+    const int use = ++uses[name];
+    shots.push_back({withSuffix(output, use == 1 ? name : fmt::format("{}-{}", name, use)), named.camera});
+  }
+  return shots;
+}
+
+/// What is drawn, in its order.
+Result<std::vector<Shot>> shotsOf(const Arguments& arguments, const SceneSetup& setup) {
+  if (arguments.allCameras) {
+    if (setup.scene().cameras.empty()) return fail("there is no camera", arguments.scene.scene);
+    return shotsOfAllCameras(arguments.output, setup.scene());
+  }
+  if (arguments.turntable == 0) return std::vector<Shot>{{arguments.output, setup.camera()}};
+  std::vector<Shot> shots;
+  for (int i = 0; i < arguments.turntable; ++i)
+    shots.push_back({withSuffix(arguments.output, fmt::format("{:03}", i)), setup.camera(),
+                     glm::two_pi<double>() * i / arguments.turntable});
+  return shots;
 }
 
 Result<void> writePicture(const std::filesystem::path& path, const FloatImage& picture) {
@@ -122,8 +166,8 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
   if (!sceneOptions) return tool.badUsage(sceneOptions.error());
   WEFT_TRY(SceneSetup setup, SceneSetup::create(*sceneOptions));
   WEFT_TRY_VOID(tool.protect(setup.scene().files));
-  const std::vector<std::filesystem::path> files = picturesOf(arguments);
-  for (const std::filesystem::path& file : files) WEFT_TRY_VOID(tool.checkOutput(file));
+  WEFT_TRY(const std::vector<Shot> shots, shotsOf(arguments, setup));
+  for (const Shot& shot : shots) WEFT_TRY_VOID(tool.checkOutput(shot.file));
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& warning) {
     tool.warn(warning);
@@ -145,20 +189,24 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
     return fail(fmt::format("with {0} x {0} samples a pixel, {1}", side, made.error().what),
                 fmt::format("--size {}x{}", size.width, size.height), made.error().hint);
   const RenderOptions options{png ? kPictureBackground : glm::vec4(0.0f), partOf(arguments.show)};
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    setup.turn(glm::two_pi<double>() * static_cast<double>(i) / static_cast<double>(files.size()));
-    WEFT_TRY_VOID(renderer.render(context, setup.root(), setup.camera(), target, options));
-    if (const std::size_t more = renderer.statistics().shadowsLeftOut; more > 0 && i == 0)
+  for (const Shot& shot : shots) {
+    setup.turn(shot.turn);
+    WEFT_TRY_VOID(renderer.render(context, setup.root(), shot.camera, target, options));
+    if (const std::size_t more = renderer.statistics().shadowsLeftOut; more > 0 && &shot == &shots.front())
       warn(fmt::format("{} more lights than eight are to cast shadows, and cast none", more));
     FloatImage picture = target.read(context, side);
     if (const std::string why = emptiness(renderer.statistics(), picture, options); !why.empty())
-      warn(files[i].string() + ": " + why);
+      warn(shot.file.string() + ": " + why);
     expose(picture, static_cast<float>(arguments.picture.exposure), arguments.picture.toneCurve(png && lit));
-    WEFT_TRY_VOID(writePicture(files[i], picture));
+    if (!arguments.layers.empty()) {
+      WEFT_TRY(picture, addLayers(picture, arguments.layers, context, renderer, setup.root(), shot.camera));
+    }
+    WEFT_TRY_VOID(writePicture(shot.file, picture));
   }
 
   nlohmann::ordered_json report{{"scene", sceneOptions->scene},
                                 {"output", arguments.output.string()},
+                                {"pictures", nlohmann::ordered_json::array()},
                                 {"width", size.width},
                                 {"height", size.height},
                                 {"samples", arguments.samples},
@@ -169,6 +217,7 @@ Result<ExitCode> render(const Tool& tool, Arguments arguments) {
                                 {"environment", sceneOptions->environment},
                                 {"warnings", warnings},
                                 {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))}};
+  for (const Shot& shot : shots) report["pictures"].push_back(shot.file.string());
   if (arguments.frames > 0) {
     const RenderTarget timed(size.width, size.height);
     WEFT_TRY_VOID(
@@ -206,6 +255,13 @@ int main(int argc, char** argv) {
                   "diffuse)")
       ->check(CLI::IsMember({"all", "diffuse", "specular"}))
       ->capture_default_str();
+  options
+      .add_option("--aov", arguments.layers,
+                  "layers of an .exr beside the light, with commas: normal (along the world's axes), depth "
+                  "(along the view), albedo (the diffuse part, of light from straight above), uv; each of "
+                  "the middle of a pixel")
+      ->delimiter(',')
+      ->check(CLI::IsMember(layerNames()));
   options
       .add_option(
           "--turntable", arguments.turntable,

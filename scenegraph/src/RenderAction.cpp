@@ -29,10 +29,18 @@ struct RenderAction::Place {
   float aspect;
   Encoding encoding;
   ReflectedPart part;
+  ShownValue shown;
   std::function<void()> enter, leave;
+
+  bool showsLight() const { return shown == ShownValue::Light; }
 
   void addTo(ShaderVariant& variant) const {
     const auto define = [&](const char* name) { variant.defines.emplace_back(name, ""); };
+    if (shown == ShownValue::Normal) define("SHOW_NORMAL");
+    if (shown == ShownValue::Depth) define("SHOW_DEPTH");
+    if (shown == ShownValue::TextureCoordinates) define("SHOW_TEXTURE_COORDINATES");
+    if (shown == ShownValue::Albedo) define("SHOW_ALBEDO"), define("ONLY_DIFFUSE");
+    if (!showsLight()) return;
     if (part == ReflectedPart::Diffuse) define("ONLY_DIFFUSE");
     if (part == ReflectedPart::Specular) define("ONLY_SPECULAR");
     if (encoding == Encoding::Srgb) define("ENCODE_SRGB");
@@ -53,7 +61,10 @@ RenderAction& RenderAction::operator=(RenderAction&&) noexcept = default;
 Result<void> RenderAction::render(GLContext& context, const Node& root, const Camera& camera,
                                   const RenderTarget& target, const RenderOptions& options) {
   const Place place{static_cast<float>(target.width()) / static_cast<float>(target.height()),
-                    Encoding::Linear, options.part, [&] { target.bindAndClear(context, options.background); },
+                    Encoding::Linear,
+                    options.part,
+                    options.shown,
+                    [&] { target.bindAndClear(context, options.background); },
                     RenderTarget::unbind};
   return renderTo(place, context, root, camera);
 }
@@ -64,7 +75,7 @@ Result<void> RenderAction::renderInPlace(GLContext& context, const Node& root, c
   glGetFloatv(GL_VIEWPORT, viewport.data());
   // a window can have been made that small
   if (viewport[2] == 0.0f || viewport[3] == 0.0f) return {};
-  const Place place{viewport[2] / viewport[3], encoding, ReflectedPart::All, [] {}, [] {}};
+  const Place place{viewport[2] / viewport[3], encoding, ReflectedPart::All, ShownValue::Light, [] {}, [] {}};
   return renderTo(place, context, root, camera);
 }
 
@@ -90,12 +101,15 @@ Result<void> RenderAction::renderTo(const Place& place, GLContext& context, cons
   RenderPass::findVisible(scene, view, view.place, frame_->visible);
   pass.arrange(context, scene, view, PassContent::Colors, frame_->visible);
   buffers.setFrame(block);
-  ShaderVariant variant = lights.variant();
-  shadows.addTo(variant);
+  ShaderVariant variant;
+  if (place.showsLight()) {
+    variant = lights.variant();
+    shadows.addTo(variant);
+  }
   place.addTo(variant);
   context.setProgramVariant(std::move(variant));
   place.enter();
-  const EnvironmentLight* environment = lights.environment;
+  const EnvironmentLight* environment = place.showsLight() ? lights.environment : nullptr;
   if (!context.failed()) {
     if (environment) environment->lighting().activate(context);
     shadows.bind();

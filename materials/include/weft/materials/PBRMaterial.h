@@ -16,8 +16,9 @@ namespace weft {
 /// MicrofacetTable times the average of what the microfacets mirror. GLSL: shaders/pbr.frag.
 ///
 /// Layers of Khronos' extensions (PBROptions.h) are compiled in where their factors are not 0, each
-/// from a file of its own: clearcoat.glsl, sheen.glsl, anisotropy.glsl, iridescence.glsl. The coat
-/// lies over the sheen, and that over the rest. What they approximate: docs/gltf.md.
+/// from a file of its own: clearcoat.glsl, sheen.glsl, anisotropy.glsl, iridescence.glsl,
+/// transmission.glsl. The coat lies over the sheen, and that over the rest. What they approximate:
+/// docs/gltf.md.
 class PBRMaterial : public ChunkMaterial {
  public:
   explicit PBRMaterial(const PBROptions& options = {});

@@ -17,9 +17,21 @@ namespace weft {
 /// what the models call diffuse, and all of a polynomial.
 enum class ReflectedPart { All, Diffuse, Specular };
 
+/// What a picture shows of what is nearest: its light, or what compositing and denoising need. The
+/// latter have alpha 1 where something is.
+enum class ShownValue {
+  Light,
+  Normal,  ///< unit, along the world's axes; with a material's normal texture, towards the eye
+  Depth,   ///< in every channel: metres along the direction in which the camera looks
+  /// The diffuse part of what is reflected of light from straight above, white as 1; of metals 0.
+  Albedo,
+  TextureCoordinates,  ///< u and v of the mesh's first set; of a measured material times its scale
+};
+
 struct RenderOptions {
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};  ///< linear RGBA
-  ReflectedPart part = ReflectedPart::All;
+  ReflectedPart part = ReflectedPart::All;       ///< of the light
+  ShownValue shown = ShownValue::Light;
 };
 
 /// What one frame did.
