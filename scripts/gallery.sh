@@ -53,6 +53,14 @@ for pattern in corduroy weave; do
   done
 done
 
+echo "docs/stochastic-tiling.md: the same at random"
+for pattern in bumps corduroy; do
+  for tiling in repeat stochastic; do
+    picture tiling-$tiling-$pattern shape:plane --material "*=$pattern.rf.exr" --tiling $tiling --uv-scale 8 \
+      --filter bilinear --size 240 --camera 0,-0.4,0.7:0,-0.05,0
+  done
+done
+
 echo "docs/viewer.md: a window"
 "$scripts/window-picture.py" "$images/viewer.png" 800x520 "$bin/weft-view" weave.rf.exr --size 800x520
 
