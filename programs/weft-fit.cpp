@@ -12,6 +12,7 @@
 #include "weft/evaluation/FieldEvaluation.h"
 #include "weft/fitter/DefaultModel.h"
 #include "weft/fitter/FieldFit.h"
+#include "weft/fitter/GlossChoice.h"
 #include "weft/io/ReflectanceFieldFile.h"
 #include "weft/measurement/BtfSource.h"
 #include "weft/reflectance/FieldTextures.h"
@@ -31,6 +32,7 @@ struct Arguments {
   std::string precision = "half";
   std::string cosine;
   std::string space;
+  std::string gloss = "auto";
   bool resume = false;
   std::vector<int> crop;
   double memoryGibibytes = 4.0;
@@ -68,6 +70,11 @@ void addOptions(Tool& tool, Arguments& a) {
          "of the stored values, as the papers do [linear; stored for " +
              namesOfStoredFits(a.modelOptions.registry()) + "]")
       ->check(CLI::IsMember({"linear", "stored"}));
+  app.add_option("--gloss", a.gloss,
+                 "of loom: whether each texel has a lobe for what shines (loom_gloss); auto: if that lowers "
+                 "errors of directions that are held out")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str();
   app.add_option("--float", a.precision, "precision of the parameters in the file")
       ->check(CLI::IsMember({"half", "float"}))
       ->capture_default_str();
@@ -127,6 +134,21 @@ FitOptions fitOptions(const Tool& tool, const Arguments& a, const ModelType& typ
   return options;
 }
 
+// Makes `loom` `loom_gloss` where that is asked for, or does better; says why where that is found
+// out.
+Result<std::string> takeGloss(const Arguments& a, const BtfSource& source, FitOptions& options) {
+  const bool canShine = options.space == FitSpace::Linear && !options.cosineInModel;
+  if (options.model.name != "loom" || a.gloss == "off" || (a.gloss == "auto" && !canShine))
+    return std::string();
+  if (a.gloss == "auto") {
+    WEFT_TRY(const GlossChoice choice, chooseGloss(source, options.crop));
+    if (choice.isTaken) options.model.name = "loom_gloss";
+    return fmt::format("{}: {}\n", choice.isTaken ? "a lobe of gloss" : "no lobe of gloss", choice.reason);
+  }
+  options.model.name = "loom_gloss";
+  return std::string();
+}
+
 // This process's share of the rows in one pass after the other; with several processes the first
 // one then has those of all.
 Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const ProcessGroup& group,
@@ -159,11 +181,14 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
   const BtfDescription& measured = source->description();
   const DefaultModel chosen = modelFor(arguments, measured);
   WEFT_TRY(const ModelType type, arguments.fit.models.find(chosen.name));
-  const FitOptions options = fitOptions(tool, arguments, type, group);
+  FitOptions options = fitOptions(tool, arguments, type, group);
+  if (arguments.gloss != "auto" && type.name != "loom")
+    return tool.badUsage("--gloss is for the model loom, not for " + type.name);
   const auto model = options.models.create(options.model);
   if (!model) return tool.badUsage(model.error().message());
   if (arguments.cosine == "out" && (*model)->containsCosine())
     return tool.badUsage(options.model.name + " contains n.l by its formula: it needs --cosine in");
+  WEFT_TRY(const std::string gloss, takeGloss(arguments, *source, options));
   if (group.rank() == 0) tellWarnings(tool, arguments.input, measured);
   const std::size_t texels = options.crop ? static_cast<std::size_t>(options.crop->width) *
                                                 static_cast<std::size_t>(options.crop->height)
@@ -197,6 +222,7 @@ Result<ExitCode> fit(const Tool& tool, const Arguments& arguments, const Process
 
   if (!chosen.reason.empty())
     tool.print(fmt::format("model {}, because of {} (--model takes another)\n", chosen.name, chosen.reason));
+  tool.print(gloss);
   tool.print(fmt::format("{}: {} x {} texels, {} views x {} lights\n", arguments.output.string(),
                          result.field.width(), result.field.height(), measured.views.size(),
                          measured.lights.size()));

@@ -58,7 +58,7 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
   fetchMoments(frame);
 }
 
-vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
+vec3 colorUnderEnvironment(Texel texel, Layer layer, vec3 view, EnvironmentFrame frame) {
   int views = textureSize(meanPolynomials, 0).y;
   vec2 chroma = texelFetch(meanNumbers, ivec3(0, 0, 1), 0).xy;
   vec3 color = vec3(0.0);

@@ -1,6 +1,13 @@
 // The model `loom`: LoomModel.h has the formula.
 #include "light_maps.glsl"
 
+#ifdef GLOSS
+#include "gloss.glsl"
+const int firstWeights = 1;  // behind the lobe's numbers
+#else
+const int firstWeights = 0;
+#endif
+
 // a square a view, side by side
 layout(binding = TABLE_light_maps) uniform sampler2DArray lightMaps;
 // a texel a view: its deviation, and the height (Registration.h)
@@ -53,12 +60,16 @@ vec3 evaluateColor(Texel texel, Layer layer, vec3 light, vec3 view) {
   float y = 0.0;
   int i = 0;
   do {
-    y += dot(texel.weights[i], textureLod(lightMaps, vec3(place, i), 0.0));
-  } while (++i < texel.count);
+    y += dot(texel.weights[firstWeights + i], textureLod(lightMaps, vec3(place, i), 0.0));
+  } while (++i < texel.count - firstWeights);
   vec4 hue = textureLod(lightMaps, vec3(place, COMPONENTS / 4), 0.0);
-  float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
+  vec2 first = texel.weights[firstWeights].xy;
+  vec3 color = diffusePart * (y * texel.baseColor + hueOf(dot(first, hue.xy), dot(first, hue.zw)));
+#ifdef GLOSS
+  color += specularPart * glossValue(glossLobe(texel.weights[0]), light, view);
+#endif
   // What components reflect is not told apart: it counts as diffuse.
-  return diffusePart * max(y * texel.baseColor + hueOf(red, blue), 0.0);
+  return max(color, 0.0);
 }
 
 #ifdef ENVIRONMENT
@@ -69,19 +80,26 @@ void prepareEnvironment(inout EnvironmentFrame frame) {
   fetchMoments(frame);
 }
 
-vec3 colorUnderEnvironment(Texel texel, Layer layer, EnvironmentFrame frame) {
+vec3 colorUnderEnvironment(Texel texel, Layer layer, vec3 view, EnvironmentFrame frame) {
   vec3 color = vec3(0.0);
   for (int term = 0; term < 6; ++term) {
-    int count = term < 3 ? min(QUADRATIC / 4, texel.count) : texel.count;
+    int count = texel.count - firstWeights;
+    if (term < 3) count = min(QUADRATIC / 4, count);
     float y = 0.0;
     int i = 0;
     do {
-      y += dot(texel.weights[i], polynomialTexel(lightPolynomials, term, layer.index, i));
+      y += dot(texel.weights[firstWeights + i],
+               polynomialTexel(lightPolynomials, term, layer.index, i));
     } while (++i < count);
     vec4 hue = polynomialTexel(lightPolynomials, term, layer.index, COMPONENTS / 4);
-    float red = dot(texel.weights[0].xy, hue.xy), blue = dot(texel.weights[0].xy, hue.zw);
-    color += (y * texel.baseColor + hueOf(red, blue)) * frame.moments[term];
+    vec2 first = texel.weights[firstWeights].xy;
+    color += (y * texel.baseColor + hueOf(dot(first, hue.xy), dot(first, hue.zw))) *
+             frame.moments[term];
   }
-  return diffusePart * max(color, 0.0);
+  color *= diffusePart;
+#ifdef GLOSS
+  color += specularPart * glossUnderEnvironment(glossLobe(texel.weights[0]), view, frame);
+#endif
+  return max(color, 0.0);
 }
 #endif

@@ -26,7 +26,7 @@ vec3 environmentValue(Texel texel, Layer layer, Place place, int index, vec3 vie
                       EnvironmentFrame frame) {
 #ifdef MODEL_GIVES_COLOR
   return environmentIntensity.w * environmentIntensity.rgb *
-         colorUnderEnvironment(texel, layer, frame);
+         colorUnderEnvironment(texel, layer, view, frame);
 #else
 #ifdef ENVIRONMENT_LAYERS
   layer = fetchLayerFrom(preparedParameters, place, index);

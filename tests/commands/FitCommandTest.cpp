@@ -91,7 +91,12 @@ TEST(FitCommand, TakesTheModelThatSuitsTheLightsOfOneView) {
   EXPECT_EQ(modelOf({"--lobes", "1"}), "rfnl");
   EXPECT_EQ(modelOf({"--model", "ptm"}), "ptm");
   EXPECT_THAT(runProgram("weft-fit", {clothZip(folder), "-o", field}).out,
-              testing::StartsWith("model loom, because of 81 views (--model takes another)\n"));
+              testing::StartsWith("model loom, because of 81 views (--model takes another)\n"
+                                  "no lobe of gloss: "));
+  const ProgramRun glossy = runProgram("weft-fit", {clothZip(folder), "-o", field, "--gloss", "on"});
+  ASSERT_EQ(glossy.exitCode, 0) << glossy.err;
+  const ProgramRun info = runProgram("weft-info", {field});
+  EXPECT_THAT(info.out, HasSubstr("loom_gloss")) << info.err;
 }
 
 TEST(FitCommand, EqualInputGivesEqualBytesOnAnyNumberOfThreads) {
@@ -244,6 +249,8 @@ TEST(FitCommand, BadUsageEndsWithOne) {
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "laf", "--rho-d", "per-view"}), 1,
                 "the model 'laf' has no option 'rho_d' (its options are lobes, color)");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--components", "10"}), 1, "multiple of 4");
+  expectRefused(runProgram("weft-fit", {zip, "-o", field, "--model", "rfp", "--gloss", "on"}), 1,
+                "--gloss is for the model loom, not for rfp");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--components", "400"}), 1, "4 to 128");
   expectRefused(runProgram("weft-fit", {zip, "-o", field, "--lobes", "2.5"}), 1,
                 "'lobes' of the model 'rfnl' cannot be 2.5 (1 to 4)");

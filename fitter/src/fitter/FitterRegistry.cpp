@@ -23,6 +23,7 @@ FitterRegistry FitterRegistry::builtin() {
   registry.add("slaf", LafFitter::create);
   registry.add("bump", BumpFitter::create);
   registry.add("loom", LoomFitter::create);
+  registry.add("loom_gloss", LoomFitter::create);
   registry.add("lod", LodFitter::create);
   return registry;
 }

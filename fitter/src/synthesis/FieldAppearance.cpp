@@ -124,7 +124,7 @@ class PairAppearance : public TexelValues {
 };
 
 std::unique_ptr<TexelValues> valuesOf(const ReflectanceField& field, const std::vector<int>& views) {
-  if (const auto* loom = dynamic_cast<const LoomModel*>(&field.model()))
+  if (const auto* loom = dynamic_cast<const LoomModel*>(&field.model()); loom && !loom->hasGloss())
     return std::make_unique<LoomAppearance>(field, *loom, views);
   return std::make_unique<PairAppearance>(field, views);
 }

@@ -122,9 +122,10 @@ std::map<std::string, std::string> aliasesOf(const FieldFormula& formula) {
            formula.integratesEnvironments() ? "surroundings_formula.glsl" : "surroundings_quadrature.glsl"}};
 }
 
-// How many fours of numbers behind the base colour are needed to hold what is not 0; at least one.
+// How many fours of numbers behind the base colour are needed to hold what is not 0; at least two,
+// where there are as many: the first may be those of a lobe, and the shader's loops begin behind.
 int foursNeeded(const FloatImage& shared) {
-  int needed = 1;
+  int needed = std::min((shared.channelCount() - 3 + 3) / 4, 2);
   forEachTexel(shared, [&](int x, int y, int) {
     const std::span<const float> numbers = shared.texel(x, y).subspan(3);
     const auto last =

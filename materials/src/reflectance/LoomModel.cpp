@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "weft/core/Color.h"
@@ -26,21 +27,22 @@ glm::vec3 hueOf(float red, float blue) {
 
 // What a sampled layer gives of one light: numbers of M, then of C.
 [[gnu::always_inline]] inline glm::vec3 colorOf(const float* weights, int components, glm::vec3 baseColor,
-                                                const float* m) {
+                                                const float* m, float gloss) {
   float y = 0.0f;
 #pragma omp simd reduction(+ : y)
   for (int k = 0; k < components; ++k) y += weights[k] * m[k];
   const float* c = m + components;
   const glm::vec3 hue = hueOf(weights[0] * c[0] + weights[1] * c[1], weights[0] * c[2] + weights[1] * c[3]);
-  return glm::max(y * baseColor + hue, 0.0f);
+  return glm::max(y * baseColor + hue + gloss, 0.0f);
 }
 
+// `colors` holds what shines at first.
 WEFT_CPU_VERSIONS
 void colorsOf(const float* weights, int components, glm::vec3 baseColor, const float* sampled,
               std::span<glm::vec3> colors) {
   for (std::size_t i = 0; i < colors.size(); ++i)
-    colors[i] =
-        colorOf(weights, components, baseColor, sampled + i * static_cast<std::size_t>(components + 4));
+    colors[i] = colorOf(weights, components, baseColor,
+                        sampled + i * static_cast<std::size_t>(components + 4), colors[i].x);
 }
 
 Registration registrationFrom(const FloatImage& table) {
@@ -52,20 +54,27 @@ Registration registrationFrom(const FloatImage& table) {
 
 }  // namespace
 
-ModelType LoomModel::type() {
-  return {"loom",
-          "Weights of a texel times components that all texels share, registered for relief: small, "
-          "with its hue and coarser levels.",
-          {ModelOption::number("components", "how many components, a multiple of 4", 48, 4, 128)},
-          [](ModelOptions options) -> Result<std::shared_ptr<const ReflectanceModel>> {
-            if (const int count = options.number("components"); count % 4 != 0)
-              return fail(fmt::format("loom cannot have {} components", count), {}, "a multiple of 4");
-            return std::make_shared<const LoomModel>(std::move(options));
-          }};
+std::vector<ModelType> LoomModel::types() {
+  const std::vector<ModelOption> options{
+      ModelOption::number("components", "how many components, a multiple of 4", 48, 4, 128)};
+  const auto make = [](ModelOptions chosen,
+                       bool hasGloss) -> Result<std::shared_ptr<const ReflectanceModel>> {
+    if (const int count = chosen.number("components"); count % 4 != 0)
+      return fail(fmt::format("loom cannot have {} components", count), {}, "a multiple of 4");
+    return std::make_shared<const LoomModel>(std::move(chosen), hasGloss);
+  };
+  return {{"loom",
+           "Weights of a texel times components that all texels share, registered for relief: small, "
+           "with its hue and coarser levels.",
+           options, [make](ModelOptions chosen) { return make(std::move(chosen), false); }},
+          {"loom_gloss", "loom with a lobe a texel for what shines.", options,
+           [make](ModelOptions chosen) { return make(std::move(chosen), true); }}};
 }
 
 std::vector<std::string> LoomModel::sharedParameters() const {
-  return numbered("W", components());
+  std::vector<std::string> names = numbered("W", components());
+  if (hasGloss_) names.insert(names.begin(), {"gloss_x", "gloss_y", "gloss_roughness", "gloss_amount"});
+  return names;
 }
 
 std::vector<ModelTable> LoomModel::tables() const {
@@ -87,7 +96,7 @@ Result<std::shared_ptr<const ReflectanceModel>> LoomModel::bind(
         fmt::format("the light maps of {} views are {} texels high and {} wide", views, size, maps.width()));
   if (polynomials.height() != views)
     return fail(fmt::format("there are polynomials of {} views, of {}", polynomials.height(), views));
-  auto bound = std::make_shared<LoomModel>(options());
+  auto bound = std::make_shared<LoomModel>(options(), hasGloss_);
   bound->registration_ = registrationFrom(registration);
   bound->mapSize_ = size;
   bound->layers_.resize(static_cast<std::size_t>(views));
@@ -123,11 +132,19 @@ std::vector<float> LoomModel::sampledLayer(std::span<const float> layer,
 }
 
 void LoomModel::evaluateSampled(std::span<const float> shared, std::span<const float> sampled,
-                                std::span<const glm::vec3>, glm::vec3, std::span<glm::vec3> colors) const {
-  WEFT_EXPECT(std::ssize(shared) == 3 + components(), "a texel has as many numbers as its model");
+                                std::span<const glm::vec3> lights, glm::vec3 view,
+                                std::span<glm::vec3> colors) const {
+  WEFT_EXPECT(shared.size() == firstWeight() + static_cast<std::size_t>(components()),
+              "a texel has as many numbers as its model");
   WEFT_EXPECT(sampled.size() == colors.size() * static_cast<std::size_t>(mapChannels()),
               "a sampled layer has numbers for every light");
-  colorsOf(shared.data() + 3, components(), {shared[0], shared[1], shared[2]}, sampled.data(), colors);
+  std::ranges::fill(colors, glm::vec3(0.0f));
+  if (hasGloss_) {
+    const GlossLobe lobe = GlossLobe::from(shared.subspan(3));
+    for (std::size_t i = 0; i < colors.size(); ++i) colors[i].x = lobe.evaluate(lights[i], view);
+  }
+  colorsOf(shared.data() + firstWeight(), components(), {shared[0], shared[1], shared[2]}, sampled.data(),
+           colors);
 }
 
 glm::vec3 LoomModel::evaluateColor(std::span<const float> shared, std::span<const float> layer,
@@ -145,12 +162,12 @@ void LoomModel::evaluateColors(std::span<const float> shared, std::span<const fl
 
 // Light of each colour is integrated for itself: what a component reflects of red light is red.
 glm::vec3 LoomModel::colorUnderEnvironment(std::span<const float> shared, std::span<const float> layer,
-                                           glm::vec3, const EnvironmentIntegrals& light) const {
+                                           glm::vec3 view, const EnvironmentIntegrals& light) const {
   const std::array<glm::vec3, kTerms> moments = light.moments();
   const int count = components();
   const auto channels = static_cast<std::size_t>(mapChannels());
   const std::span<const float> polynomials = layer.last(kTerms * channels);
-  const std::span<const float> weights = shared.subspan(3);
+  const std::span<const float> weights = shared.subspan(firstWeight());
   // of light of every colour, what a channel of the maps reflects
   const auto reflected = [&](int channel) {
     glm::vec3 sum(0.0f);
@@ -164,21 +181,30 @@ glm::vec3 LoomModel::colorUnderEnvironment(std::span<const float> shared, std::s
   const glm::vec3 red = weights[0] * reflected(count) + weights[1] * reflected(count + 1);
   const glm::vec3 blue = weights[0] * reflected(count + 2) + weights[1] * reflected(count + 3);
   const glm::vec3 hue(red.r, hueOf(red.g, blue.g).g, blue.b);
-  return glm::max(y * glm::vec3(shared[0], shared[1], shared[2]) + hue, 0.0f);
+  glm::vec3 color = y * glm::vec3(shared[0], shared[1], shared[2]) + hue;
+  if (hasGloss_) {
+    const GlossLobe lobe = GlossLobe::from(shared.subspan(3));
+    // Without Fresnel's factor all is reflected.
+    color += lobe.amount * light.glossy(lobe.normal(), view, std::sqrt(lobe.alpha), 1.0f);
+  }
+  return glm::max(color, 0.0f);
 }
 
 float LoomModel::evaluate(std::span<const float> shared, std::span<const float> layer, glm::vec3 light,
-                          glm::vec3) const {
+                          glm::vec3 view) const {
   const std::vector<float> sampled = sampledLayer(layer, {&light, 1});
-  float y = 0.0f;
-  for (std::size_t k = 0; k < shared.size(); ++k) y += shared[k] * sampled[k];
+  float y = hasGloss_ ? GlossLobe::from(shared).evaluate(light, view) : 0.0f;
+  const std::span<const float> weights = shared.subspan(firstWeight() - 3);
+  for (std::size_t k = 0; k < weights.size(); ++k) y += weights[k] * sampled[k];
   return std::max(y, 0.0f);
 }
 
 std::map<std::string, std::string> LoomModel::shaderDefines() const {
-  return {{"COMPONENTS", std::to_string(components())},
-          {"QUADRATIC", std::to_string(kQuadratic)},
-          {"MODEL_GIVES_COLOR", ""}};
+  std::map<std::string, std::string> defines{{"COMPONENTS", std::to_string(components())},
+                                             {"QUADRATIC", std::to_string(kQuadratic)},
+                                             {"MODEL_GIVES_COLOR", ""}};
+  if (hasGloss_) defines["GLOSS"] = "";
+  return defines;
 }
 
 }  // namespace weft

@@ -16,9 +16,9 @@ namespace weft {
 
 ModelRegistry ModelRegistry::builtin() {
   ModelRegistry registry;
-  for (const auto& types : {RfpModel::types(), RfnlModel::types(), LafModel::types(), BumpModel::types()})
+  for (const auto& types :
+       {RfpModel::types(), RfnlModel::types(), LafModel::types(), BumpModel::types(), LoomModel::types()})
     for (const ModelType& type : types) registry.add(type);
-  registry.add(LoomModel::type());
   registry.add(LodModel::type());
   return registry;
 }

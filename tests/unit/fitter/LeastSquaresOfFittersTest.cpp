@@ -139,6 +139,7 @@ std::vector<std::string> fittersOfLeastSquares() {
   std::vector<std::string> names = FitterRegistry::builtin().names();
   std::erase(names, "bump");
   std::erase(names, "loom");
+  std::erase(names, "loom_gloss");
   std::erase(names, "lod");
   return names;
 }

@@ -161,7 +161,7 @@ TEST(ReflectanceFieldFile, ARegistryWithoutTheModelSaysWhichItHas) {
   requireDone(writeReflectanceField(rampField(), path));
   EXPECT_EQ(errorOfField(path), path.string() +
                                     ": unknown model 'ramp' (known are rfp, lfp, ptm, rfnl, lfnl, "
-                                    "laf, slaf, bump, loom, lod)");
+                                    "laf, slaf, bump, loom, loom_gloss, lod)");
 }
 
 // The manifest of a file, changed in one place.

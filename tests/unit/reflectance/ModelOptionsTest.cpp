@@ -58,7 +58,7 @@ TEST(ModelOptions, LabelsSayWhatIsNotUsual) {
 
 TEST(ModelRegistry, EveryTypeSaysWhatItIsAndMakesItsStandard) {
   const ModelRegistry registry = ModelRegistry::builtin();
-  EXPECT_EQ(registry.types().size(), 10u);
+  EXPECT_EQ(registry.types().size(), 11u);
   for (const ModelType& type : registry.types()) {
     EXPECT_THAT(type.purpose, testing::EndsWith(".")) << type.name;
     EXPECT_EQ(valueOf(registry.create({type.name}))->description().name, type.name);

@@ -1,5 +1,7 @@
 #include "models/LoomFitter.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -7,6 +9,7 @@
 
 #include "FitWeights.h"
 #include "solvers/ComponentBasis.h"
+#include "solvers/GlossLevels.h"
 #include "solvers/LightPolynomials.h"
 #include "solvers/LoomHue.h"
 #include "solvers/LoomLevels.h"
@@ -52,12 +55,22 @@ std::vector<glm::vec3> unpackedTexels(std::span<const std::vector<double>> ofRow
 }  // namespace
 
 Result<std::unique_ptr<FieldFitter>> LoomFitter::create(const FitProblem& problem) {
-  return std::make_unique<LoomFitter>(problem);
+  auto fitter = std::make_unique<LoomFitter>(problem);
+  if (fitter->hasGloss()) {
+    if (!problem.weighted || problem.cosineInModel)
+      return fail("a lobe of gloss adds up with linear light, and without n.l alone", {},
+                  "fit with --space linear and --cosine out");
+    // so that what it cannot do is known before the work
+    const std::vector<float> grey(fitter->pairs(), 1.0f);
+    WEFT_TRY_VOID(fitter->setGloss(grey));
+  }
+  return fitter;
 }
 
 LoomFitter::LoomFitter(const FitProblem& problem)
     : problem_(problem),
       components_(static_cast<std::size_t>(problem.model->options().number("components"))),
+      firstWeight_(dynamic_cast<const LoomModel&>(*problem.model).firstWeight()),
       windowLights_(spreadLights(problem.lights.size(), kWindowLights)),
       training_(problem.width, problem.height, problem.views.size() * problem.lights.size()) {
   window_.width = std::min(problem.width, kWindowSide);
@@ -128,12 +141,44 @@ float LoomFitter::squaredWeight(float value) const {
   return weight * weight;
 }
 
+// From luminances of some texels: errors count as a display shows them at the means.
+Result<void> LoomFitter::setGloss(std::span<const float> values) {
+  std::vector<float> means(pairs());
+  const auto texels = static_cast<float>(values.size() / pairs());
+  for (std::size_t i = 0; i < values.size(); ++i) means[i % pairs()] += values[i] / texels;
+  WEFT_TRY(glossSolver_, GlossSolver::create(problem_.views, problem_.lights, means));
+  return {};
+}
+
+// Of texels, and of their luminances.
+void LoomFitter::removeGloss(std::span<glm::vec3> samples, std::span<float> values) const {
+  constexpr std::size_t kTexels = WeightedLeastSquares::kSetsAtOnce;
+  const std::size_t step = kTexels * pairs(), count = (values.size() + step - 1) / step;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t part) {
+    const std::size_t first = part * step;
+    const auto ofPart = values.subspan(first, std::min(step, values.size() - first));
+    const std::vector<GlossLobe> lobes = glossSolver_->solve(ofPart);
+    for (std::size_t texel = 0; texel < lobes.size(); ++texel) {
+      if (lobes[texel].amount == 0.0f) continue;
+      const std::vector<float> gloss = glossSolver_->valuesOf(lobes[texel]);
+      for (std::size_t pair = 0; pair < gloss.size(); ++pair) {
+        ofPart[texel * pairs() + pair] -= gloss[pair];
+        samples[first + texel * pairs() + pair] -= gloss[pair];
+      }
+    }
+  });
+}
+
 Result<void> LoomFitter::findComponents(std::span<const std::vector<double>> ofRows) {
-  const std::vector<glm::vec3> samples = unpackedTexels(ofRows, pairs());
+  std::vector<glm::vec3> samples = unpackedTexels(ofRows, pairs());
   std::vector<float> values(samples.size()), squaredWeights(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     values[i] = luminance(samples[i]);
     squaredWeights[i] = squaredWeight(values[i]);
+  }
+  if (hasGloss()) {
+    WEFT_TRY_VOID(setGloss(values));
+    removeGloss(samples, values);
   }
   std::vector<float> basis = fitComponentBasis(values, pairs(), components_);
   std::vector<float> weights(samples.size() / pairs() * components_);
@@ -228,20 +273,30 @@ void LoomFitter::fit(TexelRun& texels, RunParameters& parameters) const {
       squaredWeights[i * pairs() + pair] = squaredWeight(value);
     }
   }
+  std::vector<GlossLobe> lobes;
+  std::vector<float> gloss(hasGloss() ? values.size() : 0);
+  if (hasGloss()) lobes = glossSolver_->solve(values);
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    if (lobes[i].amount > 0.0f) std::ranges::copy(glossSolver_->valuesOf(lobes[i]), &gloss[i * pairs()]);
+  for (std::size_t i = 0; i < gloss.size(); ++i) values[i] -= gloss[i];
   std::vector<float> weights(count * components_);
   solver_->solve(values, squaredWeights, weights);
   for (float& weight : weights) weight = roundedWeight(weight);
   for (std::size_t i = 0; i < count; ++i) {
     const std::span<float> shared = parameters.shared(static_cast<int>(i));
     const std::span<const float> ofTexel = std::span(weights).subspan(i * components_, components_);
-    const glm::vec3 color = baseColor(valuesOf(texels.fitted(static_cast<int>(i))), ofTexel);
+    const auto glossOfTexel = std::span<const float>(gloss).subspan(hasGloss() ? i * pairs() : 0);
+    const glm::vec3 color = baseColor(valuesOf(texels.fitted(static_cast<int>(i))), glossOfTexel, ofTexel);
     for (int c = 0; c < 3; ++c) shared[static_cast<std::size_t>(c)] = color[c];
-    std::ranges::copy(ofTexel, shared.begin() + 3);
+    if (hasGloss()) std::ranges::copy(lobes[i].numbers(), shared.begin() + 3);
+    std::ranges::copy(ofTexel, shared.begin() + static_cast<std::ptrdiff_t>(firstWeight_));
   }
 }
 
-// The colour that, times the luminance, comes closest to the samples without their hue's change.
-glm::vec3 LoomFitter::baseColor(std::span<const glm::vec3> samples, std::span<const float> weights) const {
+// The colour that, times the luminance, comes closest to the samples without gloss (of each; may be
+// empty) and their hue's change.
+glm::vec3 LoomFitter::baseColor(std::span<const glm::vec3> samples, std::span<const float> gloss,
+                                std::span<const float> weights) const {
   glm::dvec3 products(0.0);
   double squares = 0.0;
   for (std::size_t pair = 0; pair < samples.size(); ++pair) {
@@ -250,14 +305,18 @@ glm::vec3 LoomFitter::baseColor(std::span<const glm::vec3> samples, std::span<co
     for (std::size_t k = 0; k < components_; ++k) y += weights[k] * terms[k];
     const float* hue = hues_.data() + pair * kHueNumbers;
     const float weight = squaredWeight(luminance(samples[pair])) * y;
-    products += glm::dvec3(weight * (samples[pair] - hueOf(hue, weights)));
+    const float shining = gloss.empty() ? 0.0f : gloss[pair];
+    products += glm::dvec3(weight * (samples[pair] - shining - hueOf(hue, weights)));
     squares += double{weight} * double{y};
   }
   return roundedColor(squares > 0.0 ? glm::vec3(products / squares) : glm::vec3(1.0f));
 }
 
 std::vector<FieldLevel> LoomFitter::levels(FieldLevel finest) const {
-  return loomLevels(std::move(finest), gram_, roundedWeight, roundedColor);
+  const auto ofWeights = [&](FieldLevel level) {
+    return loomLevels(std::move(level), gram_, roundedWeight, roundedColor);
+  };
+  return hasGloss() ? glossLevels(finest, ofWeights) : ofWeights(std::move(finest));
 }
 
 }  // namespace weft

@@ -93,7 +93,7 @@ class Texels {
   std::vector<glm::ivec2> texels_;
 };
 
-Eigen::MatrixXf orthonormalColumns(const Eigen::MatrixXf& columns) {
+Eigen::MatrixXf orthonormalWeights(const Eigen::MatrixXf& columns) {
   const Eigen::HouseholderQR<Eigen::MatrixXf> decomposition(columns);
   return decomposition.householderQ() * Eigen::MatrixXf::Identity(columns.rows(), columns.cols());
 }
@@ -107,7 +107,7 @@ Eigen::MatrixXf strongestWeights(const Eigen::MatrixXf& values) {
       values.cols(), count, [&] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1.0f; });
   Eigen::MatrixXf weights;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    weights = orthonormalColumns(values * columns);
+    weights = orthonormalWeights(values * columns);
     columns = values.transpose() * weights;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((columns.transpose() * columns).cast<double>());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "weft/reflectance/GlossLobe.h"
 #include "weft/reflectance/ModelRegistry.h"
 
 namespace weft {
@@ -16,16 +17,23 @@ namespace weft {
 /// closest to the maps (kTerms; of components from kQuadratic on three of them): moments of the
 /// environment integrate these. W may be filtered between texels and averaged for coarser levels,
 /// because light is linear in it; base colours are fitted anew for those.
+///
+/// `loom_gloss` is the same plus a lobe a texel (GlossLobe.h), white, whose numbers stand before W:
+/// RGB = max(0, c Y + (dR, dG, dB) + lobe).
 class LoomModel : public ReflectanceModel {
  public:
-  static ModelType type();
-  explicit LoomModel(ModelOptions options) : ReflectanceModel(std::move(options)) {}
+  static std::vector<ModelType> types();
+  LoomModel(ModelOptions options, bool hasGloss)
+      : ReflectanceModel(std::move(options)), hasGloss_(hasGloss) {}
 
   /// Of l: xx, yy, xy, x, y, 1, as `rfp` has.
   static constexpr int kTerms = 6;
   /// The components that have all of them; the others are linear.
   static constexpr int kQuadratic = 16;
 
+  bool hasGloss() const { return hasGloss_; }
+  /// Of the shared channels, the first weight.
+  std::size_t firstWeight() const { return 3 + (hasGloss_ ? GlossLobe::kNumbers : 0); }
   int components() const { return options().number("components"); }
   /// Numbers of a texel of a light map: M, then C of red and of blue, two each.
   int mapChannels() const { return components() + 4; }
@@ -60,6 +68,7 @@ class LoomModel : public ReflectanceModel {
   std::map<std::string, std::string> shaderDefines() const override;
 
  private:
+  bool hasGloss_;
   /// `[row][column][channel]` of a view's map, then `[term][channel]` of its polynomials
   std::vector<std::vector<float>> layers_;
   int mapSize_ = 0;
