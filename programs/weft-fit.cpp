@@ -158,9 +158,9 @@ Result<void> fitRows(FieldFit& fieldFit, const Arguments& arguments, const Proce
   if (!group.allSucceeded(claimed.has_value()))  // before others write theirs
     return claimed ? fail("another process of the fit has failed") : claimed;
   const auto share = [&](int rank) { return fieldFit.height() * rank / group.size(); };
-  const int first = share(group.rank());
   Result<void> own = arguments.resume ? fieldFit.resume() : Result<void>();
   for (;;) {
+    const int first = share(group.rank());
     if (own)
       own =
           fieldFit.fitRows(first, share(group.rank() + 1) - first, group.rank() == 0 ? progress : Progress());

@@ -26,15 +26,15 @@ void main() {
   TangentFrame frame = tangentFrame(normal, tangent, handedness, !gl_FrontFacing);
   EnvironmentFrame environment = environmentFrame(frame);
   vec3 view = toFrame(frame, toEye(position));
-  ivec2 size = surfaceSize();
+  Footprint footprint = footprintOf(texcoord * textureScale, surfaceSize());
   vec3 radiance = vec3(0.0);
   // Mesa's software renderer executes a loop's body once more to find that it has ended, unless the
   // test stands behind it. So do the loops over lights.
   int i = 0;
   do {
-    PlaceShare at = placeAt(i, texcoord * textureScale, size);
+    PlaceShare at = placeAt(footprint, i);
     radiance += at.share * radianceOf(at.place, view, frame, environment);
-  } while (++i < placeCount);
+  } while (++i < footprint.count);
   vec4 light = vec4(tint * max(radiance, 0.0), 1.0);  // shares may be below 0
   color = shownSurface(light, position, normal, texcoord * textureScale);
 }

@@ -2,6 +2,7 @@
 #include "filtered_texel.glsl"
 
 Texel fetchTexel(Place place) {
+  place = narrowed(place);
   Texel texel;
   texel.baseColor =
       textureGrad(baseColors, vec3(place.texcoord, 0.0), place.toRight, place.upwards).rgb;

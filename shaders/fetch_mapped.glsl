@@ -63,6 +63,7 @@ void addTexel(inout Texel sum, float share, Place place, int field) {
 }
 
 Texel fetchTexel(Place place) {
+  place = narrowed(place);
   // in texels
   vec2 toRight = place.toRight * vec2(surfaceSize()), upwards = place.upwards * vec2(surfaceSize());
   float coarse = coarseShare(toRight, upwards);

@@ -30,6 +30,10 @@ ivec2 fieldSize() {
   return textureSize(sharedParameters, 0).xy;
 }
 
+int fieldLevels() {
+  return textureQueryLevels(sharedParameters);
+}
+
 // Texels of these models stay where they are.
 Place seenAt(Place place, LayerWeights layers, vec3 view) {
   return place;
@@ -40,7 +44,7 @@ Texel fetchTexel(Place place) {
   for (int c = 0; c < COLOR_CHANNELS; ++c)
     for (int i = 0; i < SHARED_TEXELS; ++i)
       texel.channels[c].texels[i] =
-          texelFetch(sharedParameters, ivec3(place.texel, c * SHARED_TEXELS + i), 0);
+          texelFetch(sharedParameters, ivec3(place.texel, c * SHARED_TEXELS + i), place.level);
   return texel;
 }
 
@@ -49,7 +53,8 @@ Layer fetchLayerFrom(sampler2DArray image, Place place, int index) {
   for (int c = 0; c < COLOR_CHANNELS; ++c)
     for (int i = 0; i < LAYER_TEXELS; ++i)
       layer.channels[c].texels[i] =
-          texelFetch(image, ivec3(place.texel, (index * COLOR_CHANNELS + c) * LAYER_TEXELS + i), 0);
+          texelFetch(image, ivec3(place.texel, (index * COLOR_CHANNELS + c) * LAYER_TEXELS + i),
+                     place.level);
   return layer;
 }
 

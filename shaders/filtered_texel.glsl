@@ -3,6 +3,7 @@
 // model's GLSL file reads them, and defines seenAt(), where the surface in relief is looked up that
 // is seen at a place.
 #include "field_block.glsl"
+#include "footprint.glsl"
 
 layout(binding = sharedParametersUnit) uniform sampler2DArray sharedParameters;
 layout(binding = baseColorsUnit) uniform sampler2DArray baseColors;
@@ -16,6 +17,16 @@ struct Texel {
 struct Layer {
   int index;
 };
+
+// The place with steps as long as the side of the square that is averaged, for GL's filters, which
+// go by the longer one.
+Place narrowed(Place place) {
+  vec2 size = vec2(surfaceSize());
+  vec2 across = place.toRight * size, along = place.upwards * size;
+  float longest = max(max(dot(across, across), dot(along, along)), 1e-30);
+  float share = sqrt(squaredSide(across, along) / longest);
+  return Place(place.texcoord, share * place.toRight, share * place.upwards);
+}
 
 // How many fours of weights are not all 0 where a pixel covers so much of the surface.
 int weightsAt(vec2 toRight, vec2 upwards) {

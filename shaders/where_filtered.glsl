@@ -1,8 +1,6 @@
 // Where a field is looked up whose parameters the hardware filters: one place, and how far it moves
 // from pixel to pixel, which says how coarse a level is enough.
 
-const int placeCount = 1;
-
 struct Place {
   vec2 texcoord;  // 1 is the whole surface, which repeats
   vec2 toRight;   // from a pixel to the next
@@ -14,11 +12,21 @@ struct PlaceShare {
   float share;  // of the result
 };
 
-PlaceShare placeAt(int index, vec2 texcoord, ivec2 size) {
+// What a pixel covers.
+struct Footprint {
+  Place place;
+  int count;  // of the places that are shaded
+};
+
+Footprint footprintOf(vec2 texcoord, ivec2 size) {
 #ifdef NEAREST_TEXEL
-  return PlaceShare(Place((floor(texcoord * vec2(size)) + 0.5) / vec2(size), vec2(0.0), vec2(0.0)),
-                    1.0);
+  texcoord = (floor(texcoord * vec2(size)) + 0.5) / vec2(size);
+  return Footprint(Place(texcoord, vec2(0.0), vec2(0.0)), 1);
 #else
-  return PlaceShare(Place(texcoord, dFdx(texcoord), dFdy(texcoord)), 1.0);
+  return Footprint(Place(texcoord, dFdx(texcoord), dFdy(texcoord)), 1);
 #endif
+}
+
+PlaceShare placeAt(Footprint footprint, int index) {
+  return PlaceShare(footprint.place, 1.0);
 }

@@ -50,7 +50,7 @@ TEST_F(MappedMaterialTest, TexelsAreThoseOfTheMap) {
                                       {"lod", glm::ivec2(8, 6)}}) {
     const ReflectanceField field = unevenField({.name = model}, sample.x, sample.y);
     const CoordinateMap map = patchMap({16, 32}, sample, 3);
-    const auto shown = material(field, map);
+    const auto shown = material(field, map, {.filter = TexelFilter::Nearest});
     const auto layers = layersOnTheGpu(field);
     std::mt19937 random(2003);
     for (int pair = 0; pair < 4; ++pair) {
@@ -81,7 +81,7 @@ TEST_F(MappedMaterialTest, FiltersAcrossJumps) {
       return valueOfNumbers(filtered, filteredTexel(filtered.shared(), map, place, numbers), weights, light_,
                             view);
     });
-    const auto shown = material(*field, map, {.filter = TexelFilter::Bilinear});
+    const auto shown = material(*field, map);
     expectEqualPictures(render(shown, frame_, towardsLight_), expected, 5e-3f);
   }
 }
@@ -102,10 +102,8 @@ TEST_F(MappedMaterialTest, CoarseLevelsAreTheSurfaces) {
         numbers[static_cast<std::size_t>(3 + i)] = levels.at(x % side, y % side, i / 4, i % 4, level);
       return valueOfNumbers(field, numbers, layers(light_, view), light_, view);
     });
-    const auto shown =
-        material(field, map,
-                 {.textureScale = glm::vec2(static_cast<float>(kPictureSize) / static_cast<float>(side)),
-                  .filter = TexelFilter::Bilinear});
+    const auto shown = material(
+        field, map, {.textureScale = glm::vec2(static_cast<float>(kPictureSize) / static_cast<float>(side))});
     SCOPED_TRACE(level);
     expectEqualPictures(render(shown, frame_, towardsLight_), expected, 5e-3f);
   }
@@ -120,10 +118,8 @@ TEST_F(MappedMaterialTest, ARepeatedSampleLooksAsWithoutAMap) {
   const auto shared = std::make_shared<const ReflectanceField>(field);
   for (const float pixel : {0.3f, 1.6f, 5.0f, 10.0f, 13.0f, 40.0f}) {  // in texels
     const float repetitions = pixel * static_cast<float>(kPictureSize) / 8.0f;
-    const auto mapped = material(
-        field, map, {.textureScale = glm::vec2(repetitions / 8.0f), .filter = TexelFilter::Bilinear});
-    const FloatImage plain = render({.textureScale = glm::vec2(repetitions), .filter = TexelFilter::Bilinear},
-                                    shared, frame_, towardsLight_);
+    const auto mapped = material(field, map, {.textureScale = glm::vec2(repetitions / 8.0f)});
+    const FloatImage plain = render({.textureScale = glm::vec2(repetitions)}, shared, frame_, towardsLight_);
     SCOPED_TRACE(pixel);
     expectEqualPictures(render(mapped, frame_, towardsLight_), plain, 1e-2f);
   }

@@ -68,6 +68,7 @@ class OwnModel : public GlTest {
   FloatImage drawn(const ModelRegistry& models) {
     GltfOptions options;
     options.models = models;
+    options.btf.filter = TexelFilter::Nearest;
     Node scene;
     scene.addChild(valueOf(loadGltf(folder / "scene.gltf", options)).root);
     const glm::mat4 turn(glm::vec4(0.8f, 0, -0.6f, 0), glm::vec4(0, 1, 0, 0), glm::vec4(kTowardsLight, 0),

@@ -43,7 +43,8 @@ TEST_F(ReferencePicture, TheReferenceRendererDrawsWhatGlDraws) {
   const glm::vec3 lux(2, 1.5f, 1), candela(4, 6, 8), place(1.5f, -1, 2);
 
   Node scene;
-  scene.addChild(dressed(valueOf(BTFMaterial::create(field, {.textureScale = {3, 2}})), mesh));
+  scene.addChild(dressed(
+      valueOf(BTFMaterial::create(field, {.textureScale = {3, 2}, .filter = TexelFilter::Nearest})), mesh));
   scene.addChild(std::make_shared<DirectionalLight>(lux));  // along -Z, towards +Z
   glm::mat4 shift(1.0f);
   shift[3] = glm::vec4(place, 1);

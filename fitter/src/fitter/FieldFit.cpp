@@ -7,15 +7,15 @@
 #include <chrono>
 #include <cstdlib>
 #include <future>
-#include <mutex>
 
+#include "FitDescription.h"
 #include "FittedRows.h"
 #include "GatheredRows.h"
+#include "HalvedBtf.h"
+#include "RowCounter.h"
 #include "RowSaver.h"
 #include "weft/core/Contract.h"
-#include "weft/core/Version.h"
 #include "weft/evaluation/FieldEvaluation.h"
-#include "weft/evaluation/HoldOut.h"
 
 namespace weft {
 namespace {
@@ -24,52 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::vector<glm::vec3> without(const std::vector<glm::vec3>& directions, const std::vector<bool>& left) {
-  std::vector<glm::vec3> rest;
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    if (!left[i]) rest.push_back(directions[i]);
-  return rest;
-}
-
-// Those that are held out, and those on or below the horizon: models differ in what they make of
-// these.
-std::vector<bool> lightsLeftOut(const std::vector<glm::vec3>& lights, int every) {
-  std::vector<bool> left = heldOut(lights, every);
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    if (lights[i].z <= 0.0f) left[i] = true;
-  return left;
-}
-
-ReflectanceFieldDescription descriptionOf(const BtfDescription& measured, const FitOptions& options,
-                                          const ReflectanceModel& model) {
-  const bool stored = options.space == FitSpace::Stored;
-  return {without(measured.views, heldOut(measured.views, options.holdOutViews)),
-          without(measured.lights, lightsLeftOut(measured.lights, options.holdOutLights)),
-          options.cosineInModel || stored || model.containsCosine(),
-          stored ? measured.encoding : Encoding::Linear,
-          measured.name,
-          {}};
-}
-
-// Everything that decides the numbers of a fit, for people to compare. What the measurement is
-// called does not.
-Result<std::string> fingerprintOf(const BtfSource& source, const FitOptions& options, const Crop& crop,
-                                  const ModelDescription& model) {
-  if (options.partsFolder.empty()) return std::string();
-  const BtfDescription& measured = source.description();
-  WEFT_TRY(const std::uint64_t checksum, source.checksum());
-  std::string fingerprint = fmt::format("weft {} {}", WEFT_VERSION, model.name);
-  for (const auto& [name, value] : model.options) fingerprint += fmt::format(" ({} {})", name, textOf(value));
-  return fingerprint +
-         fmt::format(
-             " of {}x{}x{}x{} with checksum {:016x}, crop {} {} {} {}, cosine {}, space {}, hold "
-             "out {} {}, {}",
-             measured.width, measured.height, measured.views.size(), measured.lights.size(), checksum, crop.x,
-             crop.y, crop.width, crop.height, options.cosineInModel ? "in" : "out",
-             options.space == FitSpace::Linear ? "linear" : "stored", options.holdOutLights,
-             options.holdOutViews, options.precision == Precision::Half ? "half" : "float");
 }
 
 // Those that are held out are never asked for.
@@ -86,25 +40,6 @@ Result<void> checkComplete(const PassRows& rows, int height) {
   if (missing < height) return fail(fmt::format("row {} has not been fitted", missing));
   return {};
 }
-
-// Calls back one thread at a time, with what is done of all rows of all passes.
-class RowCounter {
- public:
-  RowCounter(int done, int total, const Progress& progress)
-      : done_(done), total_(total), progress_(progress) {}
-
-  void add() {
-    const std::scoped_lock lock(mutex_);
-    ++done_;
-    if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(total_));
-  }
-
- private:
-  int done_;
-  int total_;
-  const Progress& progress_;
-  std::mutex mutex_;
-};
 
 }  // namespace
 
@@ -129,9 +64,10 @@ struct FieldFit::Data {
   FittedPairs pairs;
   PartsFolder folder;
   std::vector<std::unique_ptr<GatheredRows>> gathered;  ///< of each gathering pass
-  FittedRows rows;
-  std::optional<ErrorMeter> meter;       ///< in the last pass, where it measuresRows()
-  std::vector<glm::ivec2> registration;  ///< a measured view; empty: they are not
+  std::vector<std::unique_ptr<FittedRows>> fitted;      ///< of each level
+  std::vector<std::unique_ptr<HalvedBtf>> halved;       ///< what each but the finest is fitted to
+  std::optional<ErrorMeter> meter;                      ///< of the finest level, where it measuresRows()
+  std::vector<glm::ivec2> registration;                 ///< a measured view; empty: they are not
   std::size_t pass = 0;
   double secondsReading = 0.0;
   double secondsFitting = 0.0;
@@ -140,17 +76,27 @@ struct FieldFit::Data {
        std::shared_ptr<const ReflectanceModel> model_, std::unique_ptr<FieldFitter> fitter_,
        ReflectanceFieldDescription description_, std::string fingerprint);
 
-  bool inLastPass() const { return pass == gathered.size(); }
+  std::size_t passes() const { return gathered.size() + fitted.size(); }
+  bool isGathering() const { return pass < gathered.size(); }
+  std::size_t level() const { return isGathering() ? 0 : pass - gathered.size(); }
+  const BtfSource& levelSource() const { return level() == 0 ? source : *halved[level() - 1]; }
+  Crop levelCrop() const { return cropOf(level()); }
+  Crop cropOf(std::size_t ofLevel) const;
   /// Whether the errors of a row are known as soon as it is fitted.
   bool measuresRows() const { return registration.empty() && model->summedLevels() == 0; }
   bool isStopped() const { return options.stopped && options.stopped(); }
-  PassRows& passRows() { return inLastPass() ? static_cast<PassRows&>(rows) : *gathered[pass]; }
+  PassRows& passRows() { return isGathering() ? static_cast<PassRows&>(*gathered[pass]) : *fitted[level()]; }
+  void addLevels();
+  double doneBefore(std::size_t ofPass) const;
   Result<void> beginPass();
   int halo() const;
+  Result<void> endGathering();
+  Result<std::vector<FieldLevel>> takeLevels();
   Result<void> measureErrors(const std::vector<FieldLevel>& levels);
   std::vector<RowRange> blocksToDo(int firstRow, int count);
   Result<void> doBlocks(const std::vector<RowRange>& blocks, RowSaver& saver, RowCounter& counter);
   void doBlock(const SampleWindow& samples, RowRange block, RowSaver& saver, RowCounter& counter);
+  Result<void> keepNextLevel(const SampleWindow& samples, RowRange block);
   void gatherRow(const SampledRow& row);
   void fitRow(const SampledRow& row);
 };
@@ -167,10 +113,39 @@ FieldFit::Data::Data(const BtfSource& source_, const FitOptions& options_, const
       description(std::move(description_)),
       formula(formula_),
       pairs(description, source.description()),
-      folder(options.partsFolder, std::move(fingerprint)),
-      rows(folder, fitter->gatheringPasses(), crop.width, crop.height, formula) {
+      folder(options.partsFolder, std::move(fingerprint)) {
   for (int i = 0; i < fitter->gatheringPasses(); ++i)
     gathered.push_back(std::make_unique<GatheredRows>(folder, i, crop.height));
+  addLevels();
+}
+
+// The finest, and those that are fitted as it is.
+void FieldFit::Data::addLevels() {
+  for (Crop ofLevel = crop;; ofLevel = cropOf(fitted.size())) {
+    fitted.push_back(std::make_unique<FittedRows>(folder, static_cast<int>(passes()), ofLevel.width,
+                                                  ofLevel.height, formula));
+    if (!fitter->fitsLevels() || (ofLevel.width == 1 && ofLevel.height == 1)) return;
+    const BtfSource& finer = halved.empty() ? source : *halved.back();
+    halved.push_back(std::make_unique<HalvedBtf>(finer, ofLevel, options.memory));
+  }
+}
+
+// The texels of a level in what it is fitted to.
+Crop FieldFit::Data::cropOf(std::size_t ofLevel) const {
+  if (ofLevel == 0) return crop;
+  const BtfDescription& samples = halved[ofLevel - 1]->description();
+  return {0, 0, samples.width, samples.height};
+}
+
+// The share of all passes' texels that is done when one begins.
+double FieldFit::Data::doneBefore(std::size_t ofPass) const {
+  double done = 0.0, total = 0.0;
+  for (std::size_t i = 0; i < passes(); ++i) {
+    const Crop texels = cropOf(i < gathered.size() ? 0 : i - gathered.size());
+    total += static_cast<double>(texels.width) * texels.height;
+    if (i + 1 == ofPass) done = total;
+  }
+  return done / total;
 }
 
 int FieldFit::Data::halo() const {
@@ -180,8 +155,9 @@ int FieldFit::Data::halo() const {
 }
 
 Result<void> FieldFit::Data::beginPass() {
+  if (level() > 0) return {};
   registration = ofMeasuredViews(fitter->registration(), pairs);
-  if (!inLastPass()) return {};
+  if (isGathering()) return {};
   const auto tables = std::make_shared<const FieldTables>(fitter->tables());
   WEFT_TRY(const auto bound, boundModel(model, tables));
   WEFT_TRY(const FieldFormula complete, FieldFormula::create(bound, description));
@@ -192,8 +168,9 @@ Result<void> FieldFit::Data::beginPass() {
 // The rows that are not done, in runs that fit into memory; where there are several, two at once.
 std::vector<RowRange> FieldFit::Data::blocksToDo(int firstRow, int count) {
   const int around = 2 * halo();
-  const bool fitsAtOnce = source.rowsWithin(options.memory) >= std::min(count + around, crop.height);
-  const int atOnce = fitsAtOnce ? count : std::max(source.rowsWithin(options.memory / 2) - around, 1);
+  const BtfSource& from = levelSource();
+  const bool fitsAtOnce = from.rowsWithin(options.memory) >= std::min(count + around, levelCrop().height);
+  const int atOnce = fitsAtOnce ? count : std::max(from.rowsWithin(options.memory / 2) - around, 1);
   std::vector<RowRange> blocks;
   for (int row = firstRow; row < firstRow + count; ++row) {
     if (passRows().isDone(row)) continue;
@@ -210,10 +187,14 @@ Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSa
                                       RowCounter& counter) {
   std::array<SampleWindow, 2> samples;
   const auto readInto = [&](SampleWindow& to, RowRange block) {
-    return std::async(std::launch::async,
-                      [&, block] { return to.read(source, crop, block.first, block.count, halo()); });
+    return std::async(std::launch::async, [&, block] {
+      return to.read(levelSource(), levelCrop(), block.first, block.count, halo());
+    });
   };
   std::future<Result<void>> reading;
+  const auto startOfKeeping = Clock::now();
+  if (level() > 0 && !blocks.empty()) WEFT_TRY_VOID(halved[level() - 1]->keep());
+  secondsReading += secondsSince(startOfKeeping);
   if (!blocks.empty()) reading = readInto(samples[0], blocks[0]);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto startOfReading = Clock::now();
@@ -222,6 +203,7 @@ Result<void> FieldFit::Data::doBlocks(const std::vector<RowRange>& blocks, RowSa
     if (i + 1 < blocks.size()) reading = readInto(samples[(i + 1) % 2], blocks[i + 1]);
     const auto startOfFitting = Clock::now();
     doBlock(samples[i % 2], blocks[i], saver, counter);
+    WEFT_TRY_VOID(keepNextLevel(samples[i % 2], blocks[i]));
     secondsFitting += secondsSince(startOfFitting);
     if (isStopped()) return fail("the fit was stopped");
   }
@@ -232,18 +214,26 @@ void FieldFit::Data::doBlock(const SampleWindow& samples, RowRange block, RowSav
                              RowCounter& counter) {
   tbb::parallel_for(0, block.count, [&](int i) {
     if (isStopped()) return;
-    const SampledRow row{samples, source.description(), pairs, crop, block.first + i, registration};
-    inLastPass() ? fitRow(row) : gatherRow(row);
+    const SampledRow row{samples,     levelSource().description(), pairs, levelCrop(), block.first + i,
+                         registration};
+    isGathering() ? gatherRow(row) : fitRow(row);
     passRows().setDone({row.y, 1});
     saver.wake();
     counter.add();
   });
 }
 
+// While all samples of a level are in memory, those of the next cost no more reading.
+Result<void> FieldFit::Data::keepNextLevel(const SampleWindow& samples, RowRange block) {
+  const bool hasAll = block.count == levelCrop().height;
+  if (isGathering() || isStopped() || !hasAll || level() == halved.size()) return {};
+  return halved[level()]->keepFrom(samples);
+}
+
 // Run after run, so that sums of floats do not depend on threads.
 void FieldFit::Data::gatherRow(const SampledRow& row) {
   const int length = fitter->texelsAtOnce();
-  for (int number = 0; number < TexelRun::runsIn(crop.width, length); ++number) {
+  for (int number = 0; number < TexelRun::runsIn(row.crop.width, length); ++number) {
     TexelRun run(row, number, length);
     fitter->gather(static_cast<int>(pass), run, gathered[pass]->of(row.y));
   }
@@ -251,13 +241,15 @@ void FieldFit::Data::gatherRow(const SampledRow& row) {
 
 void FieldFit::Data::fitRow(const SampledRow& row) {
   const int length = fitter->texelsAtOnce();
-  tbb::parallel_for(0, TexelRun::runsIn(crop.width, length), [&](int number) {
+  FittedRows& rows = *fitted[level()];
+  tbb::parallel_for(0, TexelRun::runsIn(row.crop.width, length), [&](int number) {
     TexelRun run(row, number, length);
     RunParameters parameters(formula, run.size());
     fitter->fit(run, parameters);
     if (options.precision == Precision::Half) parameters.roundToHalf();
     rows.put(run.x(), run.y(), parameters);
-    if (measuresRows()) meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
+    if (level() == 0 && measuresRows())
+      meter->measure(parameters, run, rows.errorsAt(run.x(), run.y(), run.size()));
   });
 }
 
@@ -284,7 +276,7 @@ Result<FieldFit> FieldFit::create(const BtfSource& source, const FitOptions& opt
 }
 
 int FieldFit::height() const {
-  return data_->crop.height;
+  return data_->levelCrop().height;
 }
 
 Result<void> FieldFit::claimParts() {
@@ -294,13 +286,13 @@ Result<void> FieldFit::claimParts() {
 
 Result<void> FieldFit::resume() {
   for (const auto& pass : data_->gathered) WEFT_TRY_VOID(pass->load());
-  return data_->rows.load();
+  for (const auto& level : data_->fitted) WEFT_TRY_VOID(level->load());
+  return {};
 }
 
 Result<void> FieldFit::fitRows(int firstRow, int count, const Progress& progress) {
   Data& data = *data_;
-  const int passes = static_cast<int>(data.gathered.size()) + 1;
-  RowCounter counter(static_cast<int>(data.pass) * count, passes * count, progress);
+  RowCounter counter(data.doneBefore(data.pass), data.doneBefore(data.pass + 1), count, progress);
   for (int row = firstRow; row < firstRow + count; ++row)
     if (data.passRows().isDone(row)) counter.add();
   const std::vector<RowRange> blocks = data.blocksToDo(firstRow, count);
@@ -311,38 +303,50 @@ Result<void> FieldFit::fitRows(int firstRow, int count, const Progress& progress
 }
 
 bool FieldFit::inLastPass() const {
-  return data_->inLastPass();
+  return data_->pass + 1 == data_->passes();
 }
 
 Result<void> FieldFit::nextPass() {
   Data& data = *data_;
-  WEFT_EXPECT(!data.inLastPass(), "there is a pass to come");
-  GatheredRows& gathered = *data.gathered[data.pass];
-  if (gathered.firstMissing() < data.crop.height) WEFT_TRY_VOID(gathered.load());
-  WEFT_TRY_VOID(checkComplete(gathered, data.crop.height));
-  WEFT_TRY_VOID(data.fitter->endPass(static_cast<int>(data.pass), gathered.all()));
+  WEFT_EXPECT(!inLastPass(), "there is a pass to come");
+  if (data.isGathering()) WEFT_TRY_VOID(data.endGathering());
   ++data.pass;
   return data.beginPass();
 }
 
+Result<void> FieldFit::Data::endGathering() {
+  GatheredRows& rows = *gathered[pass];
+  if (rows.firstMissing() < crop.height) WEFT_TRY_VOID(rows.load());
+  WEFT_TRY_VOID(checkComplete(rows, crop.height));
+  return fitter->endPass(static_cast<int>(pass), rows.all());
+}
+
+// All that were fitted, or what the fitter makes of the finest.
+Result<std::vector<FieldLevel>> FieldFit::Data::takeLevels() {
+  std::vector<FieldLevel> levels;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    WEFT_TRY_VOID(checkComplete(*fitted[i], cropOf(i).height));
+    FieldLevel level{std::move(fitted[i]->shared), std::move(fitted[i]->layers)};
+    if (options.precision == Precision::Half)
+      for (FloatImage* image : {&level.shared, &level.layers}) image->setPrecision(Precision::Half);
+    levels.push_back(std::move(level));
+  }
+  return fitter->fitsLevels() ? std::move(levels) : fitter->levels(std::move(levels.front()));
+}
+
 Result<FitResult> FieldFit::finish() {
   Data& data = *data_;
-  WEFT_EXPECT(data.inLastPass(), "all passes are done");
-  WEFT_TRY_VOID(checkComplete(data.rows, data.crop.height));
-  if (data.options.precision == Precision::Half) {
-    data.rows.shared.setPrecision(Precision::Half);
-    data.rows.layers.setPrecision(Precision::Half);
-  }
-  std::vector<FieldLevel> levels =
-      data.fitter->levels({std::move(data.rows.shared), std::move(data.rows.layers)});
+  WEFT_EXPECT(inLastPass(), "all passes are done");
+  WEFT_TRY(std::vector<FieldLevel> levels, data.takeLevels());
   if (!data.measuresRows()) WEFT_TRY_VOID(data.measureErrors(levels));
-  const FitErrors errors = summarize(data.rows.errors, &SplitErrors::fitted);
+  std::vector<SplitErrors>& texels = data.fitted.front()->errors;
+  const FitErrors errors = summarize(texels, &SplitErrors::fitted);
   std::optional<FitErrors> heldOut;
-  if (data.pairs.holdOut()) heldOut = summarize(data.rows.errors, &SplitErrors::heldOut);
+  if (data.pairs.holdOut()) heldOut = summarize(texels, &SplitErrors::heldOut);
   data.description.fitReport = toJson(errors, heldOut);
   WEFT_TRY(ReflectanceField field, ReflectanceField::create(data.model, std::move(data.description),
                                                             std::move(levels), data.fitter->tables()));
-  return FitResult{std::move(field),   errors, heldOut, std::move(data.rows.errors), data.secondsReading,
+  return FitResult{std::move(field),   errors, heldOut, std::move(texels), data.secondsReading,
                    data.secondsFitting};
 }
 
@@ -352,7 +356,7 @@ Result<void> FieldFit::Data::measureErrors(const std::vector<FieldLevel>& levels
   WEFT_TRY(const ReflectanceField field,
            ReflectanceField::create(model, description, levels, fitter->tables()));
   WEFT_TRY(FieldEvaluation evaluation, evaluateField(field, source, crop, options.memory));
-  rows.errors = std::move(evaluation.texels);
+  fitted.front()->errors = std::move(evaluation.texels);
   return {};
 }
 

@@ -16,6 +16,7 @@ class TexelFieldFitter : public FieldFitter {
 
   const TexelFitter& texelFitter() const { return *fitter_; }
   void fit(TexelRun& texels, RunParameters& parameters) const override;
+  bool fitsLevels() const override { return true; }
 
  private:
   void fitTexel(const TexelSamples& samples, std::span<float> shared, std::span<float> layers) const;

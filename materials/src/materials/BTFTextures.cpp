@@ -36,6 +36,11 @@ Images packed(const ReflectanceField& field, bool prepared) {
 // How the images are sampled that are not read texel by texel.
 std::map<int, TextureOptions> samplingOf(const ReflectanceField& field) {
   std::map<int, TextureOptions> sampling;
+  // GL leaves levels undefined where no filter asks for them, even to texelFetch().
+  if (field.levels().size() > 1)
+    for (const int unit :
+         {bindings::sharedParametersUnit, bindings::layerParametersUnit, bindings::preparedParametersUnit})
+      sampling[unit] = {.filter = TextureFilter::Mipmapped};
   if (field.model().filtersParameters() || field.model().summedLevels() > 0)
     for (const int unit : {bindings::sharedParametersUnit, bindings::baseColorsUnit})
       sampling[unit] = {.filter = TextureFilter::Mipmapped, .wrap = TextureWrap::Repeat};

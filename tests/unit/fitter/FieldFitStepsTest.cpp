@@ -9,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "FitPasses.h"
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/fitter/FieldFit.h"
@@ -38,8 +39,12 @@ FitOptions optionsWith(const fs::path& parts) {
 }
 
 void expectSameFields(const FitResult& a, const FitResult& b) {
-  EXPECT_TRUE(std::ranges::equal(a.field.shared().values(), b.field.shared().values()));
-  EXPECT_TRUE(std::ranges::equal(a.field.layers().values(), b.field.layers().values()));
+  ASSERT_EQ(a.field.levels().size(), b.field.levels().size());
+  for (std::size_t i = 0; i < a.field.levels().size(); ++i) {
+    const FieldLevel &ofA = a.field.levels()[i], &ofB = b.field.levels()[i];
+    EXPECT_TRUE(std::ranges::equal(ofA.shared.values(), ofB.shared.values())) << "level " << i;
+    EXPECT_TRUE(std::ranges::equal(ofA.layers.values(), ofB.layers.values())) << "level " << i;
+  }
   EXPECT_EQ(a.field.description().fitReport, b.field.description().fitReport);
 }
 
@@ -47,23 +52,28 @@ std::string failureText(const Result<void>& result) {
   return result ? std::string() : result.error().message();
 }
 
+// In each pass: that of the finest level, and those of coarser ones.
 TEST(FieldFitSteps, AStoppedFitGoesOnToTheSameResult) {
   const MemoryBtf source = unevenBtf();
-  const fs::path parts = test::testFolder() / "parts";
   const FitResult uninterrupted = valueOf(fitReflectanceField(source, optionsWith({})));
-  {
-    FieldFit stopped = valueOf(FieldFit::create(source, optionsWith(parts)));
-    EXPECT_TRUE(stopped.fitRows(5, 13, {}));
-    EXPECT_FALSE(stopped.finish()) << "rows are missing";
+  ASSERT_EQ(uninterrupted.field.levels().size(), 6u);  // 40 20 10 5 2 1 rows
+  for (int stoppedPass = 0; stoppedPass < 3; ++stoppedPass) {
+    const fs::path parts = test::testFolder() / ("parts" + std::to_string(stoppedPass));
+    {
+      FieldFit stopped = valueOf(FieldFit::create(source, optionsWith(parts)));
+      for (int pass = 0; pass < stoppedPass; ++pass) {
+        ASSERT_TRUE(stopped.fitRows(0, stopped.height(), {}));
+        ASSERT_TRUE(stopped.nextPass());
+      }
+      EXPECT_TRUE(stopped.fitRows(3, 5, {}));
+    }
+    FieldFit resumed = valueOf(FieldFit::create(source, optionsWith(parts)));
+    ASSERT_TRUE(resumed.resume());
+    test::fitRemainingPasses(resumed);
+    expectSameFields(valueOf(resumed.finish()), uninterrupted);
+    resumed.removeParts();
+    EXPECT_FALSE(fs::exists(parts));
   }
-  FieldFit resumed = valueOf(FieldFit::create(source, optionsWith(parts)));
-  ASSERT_TRUE(resumed.resume());
-  double progress = 0.0;
-  ASSERT_TRUE(resumed.fitRows(0, kRows, [&](double fraction) { progress = fraction; }));
-  EXPECT_DOUBLE_EQ(progress, 1.0);
-  expectSameFields(valueOf(resumed.finish()), uninterrupted);
-  resumed.removeParts();
-  EXPECT_FALSE(fs::exists(parts));
 }
 
 TEST(FieldFitSteps, ProcessesShareAFitByItsFolder) {
@@ -71,10 +81,16 @@ TEST(FieldFitSteps, ProcessesShareAFitByItsFolder) {
   const fs::path parts = test::testFolder() / "parts";
   std::vector<FieldFit> processes;
   for (int rank = 0; rank < 3; ++rank) {
-    processes.push_back(valueOf(FieldFit::create(source, optionsWith(parts))));
-    const int first = kRows * rank / 3;
-    EXPECT_TRUE(processes.back().fitRows(first, kRows * (rank + 1) / 3 - first, {}));
+    FieldFit fit = valueOf(FieldFit::create(source, optionsWith(parts)));
+    for (bool more = true; more;) {
+      const int first = fit.height() * rank / 3;
+      EXPECT_TRUE(fit.fitRows(first, fit.height() * (rank + 1) / 3 - first, {}));
+      more = !fit.inLastPass();
+      if (more) test::requireDone(fit.nextPass());
+    }
+    processes.push_back(std::move(fit));
   }
+  EXPECT_FALSE(processes[1].finish()) << "rows are missing";
   ASSERT_TRUE(processes[0].resume());
   expectSameFields(valueOf(processes[0].finish()), valueOf(fitReflectanceField(source, optionsWith({}))));
 }
@@ -149,6 +165,7 @@ TEST(FieldFitSteps, RowsThatCannotBeKeptAreAWarningAndAreTriedAgain) {
       for (int i = 0; i < 1000 && rowFilesIn(options.partsFolder) == 0; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }));
+  test::fitRemainingPasses(fit);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr(options.partsFolder.string()));
   EXPECT_GT(rowFilesIn(options.partsFolder), 0);

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "FitPasses.h"
 #include "MemoryBtf.h"
 #include "TestSupport.h"
 #include "weft/fitter/FieldFit.h"
@@ -123,14 +124,6 @@ void expectSame(const FitResult& a, const FitResult& b) {
   EXPECT_EQ(a.field.description().fitReport, b.field.description().fitReport);
 }
 
-void fitAllRows(FieldFit& fit) {
-  test::requireDone(fit.fitRows(0, kHeight, {}));
-  while (!fit.inLastPass()) {
-    test::requireDone(fit.nextPass());
-    test::requireDone(fit.fitRows(0, kHeight, {}));
-  }
-}
-
 TEST(FieldFitter, GathersOverAllTexels) {
   const MemoryBtf source = unevenBtfOfSevenViews();
   double sum = 0.0;
@@ -195,7 +188,7 @@ TEST(FieldFitter, AStopInAnyPassLosesNothing) {
     }
     FieldFit fit = valueOf(FieldFit::create(source, meanOptions(parts)));
     test::requireDone(fit.resume());
-    fitAllRows(fit);
+    test::fitRemainingPasses(fit);
     expectSame(valueOf(fit.finish()), expected);
     fit.removeParts();
     EXPECT_FALSE(fs::exists(parts));

@@ -72,7 +72,7 @@ struct FitResult {
 ///     WEFT_TRY(FieldFit fit, FieldFit::create(source, options));
 ///     WEFT_TRY_VOID(fit.resume());       // takes over rows in options.partsFolder
 ///     WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));    // or each process some
-///     while (!fit.inLastPass()) {                         // of models with tables
+///     while (!fit.inLastPass()) {                         // tables, then levels
 ///       WEFT_TRY_VOID(fit.nextPass());   // when all processes are done with the rows
 ///       WEFT_TRY_VOID(fit.fitRows(0, fit.height(), {}));
 ///     }
@@ -86,6 +86,7 @@ class FieldFit {
   FieldFit(FieldFit&&) noexcept;
   ~FieldFit();
 
+  /// Rows of the present pass: of the field, or of one of its coarser levels.
   int height() const;
   /// Keeps other fits away from the parts folder while this one lives. Fails where one has it. Of
   /// several processes that share the fit, one claims it.
@@ -96,12 +97,13 @@ class FieldFit {
   /// next block of rows is read and finished ones are written to the parts folder. Progress is that
   /// of all passes.
   Result<void> fitRows(int firstRow, int count, const Progress& progress);
-  /// Whether the present pass fits texels; passes before it gather what these share (FieldFitter).
+  /// The first passes gather what texels share (FieldFitter), then each fits a level, the finest
+  /// first.
   bool inLastPass() const;
-  /// Goes on to the next pass; rows of other processes are taken over from the parts folder. Fails
-  /// where one is missing.
+  /// Goes on to the next pass; gathered rows of other processes are taken over from the parts
+  /// folder. Fails where one of them is missing.
   Result<void> nextPass();
-  /// The field, once every row is done in the last pass; once.
+  /// The field, once every row of every pass is done; once.
   Result<FitResult> finish();
   /// Removes the finished rows, and the parts folder where nothing else is in it; for when the
   /// field has been written.

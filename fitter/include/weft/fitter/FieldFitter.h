@@ -43,7 +43,10 @@ class FieldFitter {
   virtual int texelsAtOnce() const { return TexelRun::kTexels; }
   /// Fits the texels of a run, base colours included; every number written is finite. Thread safe.
   virtual void fit(TexelRun& texels, RunParameters& parameters) const = 0;
-  /// The levels of a field, from what fit() gave; of the finest alone by default.
+  /// Whether fit() makes the coarser levels, too, down to one texel, from samples that are averages
+  /// of finer ones. Such fitters have no registration().
+  virtual bool fitsLevels() const { return false; }
+  /// Otherwise: the levels of a field, from what fit() gave; of the finest alone by default.
   virtual std::vector<FieldLevel> levels(FieldLevel finest) const;
 };
 

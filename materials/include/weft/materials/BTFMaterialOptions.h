@@ -8,11 +8,15 @@
 
 namespace weft {
 
-/// What is between the centres of texels. Where the hardware filters a model's parameters
-/// (BTFTextures::filtersParameters()), Bilinear also filters between levels, for one texel's work.
+/// What is between the centres of texels, and where many lie in a pixel.
 enum class TexelFilter {
-  Nearest,   ///< the nearest texel: fast, with edges where texels are larger than pixels
-  Bilinear,  ///< the results of the four nearest texels, mixed: four times the work
+  /// The nearest texel of the finest level: fast, with edges where texels are larger than pixels,
+  /// and noise where they are smaller.
+  Nearest,
+  /// The results of the four nearest texels, mixed, of the two levels between which a pixel lies:
+  /// four times the work, and eight between levels. Where the hardware filters a model's parameters
+  /// (BTFTextures::filtersParameters()), one texel's.
+  Bilinear,
 };
 
 /// How a sample covers a surface without a coordinate map.
@@ -34,7 +38,7 @@ struct BTFMaterialOptions {
       /// 3: [Meseth 2004] eq. 4; 1: the nearest measured view alone, faster, with seams between
       /// views
       3;
-  TexelFilter filter = TexelFilter::Nearest;
+  TexelFilter filter = TexelFilter::Bilinear;
   Tiling tiling = Tiling::Repeat;
   /// BTFTextures::create()'s, where a field or a file is given; textures are prepared or not.
   bool preparedForEnvironments = false;
