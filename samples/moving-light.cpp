@@ -23,8 +23,9 @@ weft::Result<void> drawTurn(const char* field, const std::string& name, int step
   WEFT_TRY(const auto material,
            weft::loadBTFMaterial(field, {.textureScale = glm::vec2(12), .doubleSided = true}));
   weft::Node scene;
+  const auto cloth = std::make_shared<weft::Mesh>(weft::makeDrapedCloth());
   scene.addChild(std::make_shared<weft::MaterialGroup>(material))
-      ->addChild(std::make_shared<weft::Geometry>(std::make_shared<weft::Mesh>(weft::makeDrapedCloth())));
+      ->addChild(std::make_shared<weft::Geometry>(cloth));
   const auto lamp = std::make_shared<weft::PointLight>(glm::vec3(20));  // candela
   lamp->castsShadow = true;
   const auto place = std::make_shared<weft::Transform>();  // shared with the node: it can be moved
@@ -35,7 +36,8 @@ weft::Result<void> drawTurn(const char* field, const std::string& name, int step
   weft::RenderAction renderer;
   for (int step = 0; step < steps; ++step) {
     const double angle = glm::two_pi<double>() * step / steps;
-    place->setMatrix(glm::translate(glm::dmat4(1), {2.5 * std::sin(angle), 2.0, 2.5 * std::cos(angle)}));
+    const glm::dvec3 around(2.5 * std::sin(angle), 2.0, 2.5 * std::cos(angle));
+    place->setMatrix(glm::translate(glm::dmat4(1), around));
     WEFT_TRY_VOID(renderer.render(window->context(), scene, camera, target));
     WEFT_TRY_VOID(weft::writePng(name + "-" + std::to_string(step) + ".png",
                                  target.read(window->context(), 2)));  // 2 x 2 samples a pixel

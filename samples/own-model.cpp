@@ -40,9 +40,10 @@ float evaluateModel(SharedParameters shared_, LayerParameters layer, vec3 light,
 
 weft::ModelRegistry models() {
   weft::ModelRegistry models = weft::ModelRegistry::builtin();
-  models.add({"slope", "A linear function of the light for every view.", {}, [](weft::ModelOptions options) {
-                return std::make_shared<const SlopeModel>(std::move(options));
-              }});
+  const auto make = [](weft::ModelOptions options) {
+    return std::make_shared<const SlopeModel>(std::move(options));
+  };
+  models.add({"slope", "A linear function of the light for every view.", {}, make});
   return models;
 }
 

@@ -28,6 +28,7 @@ if [[ ${1:-} == development ]]; then
     locales # de_DE.UTF-8, where numbers have a comma
     doxygen doxygen-awesome-css # the API reference
     mkdocs mkdocs-material # the site
+    python3-pil # a window as a picture: scripts/gallery.sh
   )
 fi
 

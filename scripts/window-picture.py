@@ -7,33 +7,15 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
+
+from PIL import Image
 
 
 def screen_of(dump):
-    """Rows of RGB of an XWD file, 32 bits a pixel, as Xvfb keeps one."""
+    """The picture in an XWD file, 32 bits a pixel, as Xvfb keeps one."""
     header = struct.unpack(">25I", dump[:100])
     size, width, height, stride, colors = header[0], header[4], header[5], header[12], header[19]
-    rows = []
-    for y in range(height):
-        start = size + 12 * colors + y * stride
-        pixels = dump[start : start + 4 * width]
-        row = bytearray(3 * width)
-        row[0::3], row[1::3], row[2::3] = pixels[2::4], pixels[1::4], pixels[0::4]
-        rows.append(bytes(row))
-    return rows
-
-
-def write_png(path, rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
-    above = [bytes(len(rows[0])), *rows]  # a row is written as its difference from that
-    lines = [b"\2" + bytes((a - b) & 255 for a, b in zip(row, last)) for row, last in zip(rows, above)]
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header))
-        file.write(chunk(b"IDAT", zlib.compress(b"".join(lines), 9)) + chunk(b"IEND", b""))
+    return Image.frombytes("RGB", (width, height), dump[size + 12 * colors :], "raw", "BGRX", stride)
 
 
 def resting_screen(path, program):
@@ -44,9 +26,9 @@ def resting_screen(path, program):
         if program.poll() is not None:
             sys.exit("the program has ended")
         with open(path, "rb") as file:
-            rows = screen_of(file.read())
-        if rows != last or not any(map(any, rows)):
-            last, since = rows, time.time()
+            screen = screen_of(file.read())
+        if screen != last or not screen.getbbox():  # all black
+            last, since = screen, time.time()
     return last
 
 
@@ -59,7 +41,7 @@ def main(picture, size, command):
         try:
             display = ":" + os.read(read, 16).decode().strip()
             program = subprocess.Popen(command, env={**os.environ, "DISPLAY": display, "XDG_STATE_HOME": folder})
-            write_png(picture, resting_screen(os.path.join(folder, "Xvfb_screen0"), program))
+            resting_screen(os.path.join(folder, "Xvfb_screen0"), program).save(picture, optimize=True)
         finally:
             for process in filter(None, (program, server)):
                 process.terminate()

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "PictureArguments.h"
@@ -104,11 +104,12 @@ std::string asFileName(std::string name) {
 /// One for each camera of the file, in its order, by their names.
 std::vector<Shot> shotsOfAllCameras(const std::filesystem::path& output, const GltfScene& scene) {
   std::vector<Shot> shots;
-  std::map<std::string, int> uses;
+  std::set<std::string> taken;
   for (const GltfScene::NamedCamera& named : scene.cameras) {
     const std::string name = asFileName(named.name);
-    const int use = ++uses[name];
-    shots.push_back({withSuffix(output, use == 1 ? name : fmt::format("{}-{}", name, use)), named.camera});
+    std::string own = name;
+    for (int use = 2; !taken.insert(own).second; ++use) own = fmt::format("{}-{}", name, use);
+    shots.push_back({withSuffix(output, own), named.camera});
   }
   return shots;
 }

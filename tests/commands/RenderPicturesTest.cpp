@@ -42,17 +42,19 @@ class RenderPictures : public testing::Test {
 TEST_F(RenderPictures, DrawsAPictureOfEachCamera) {
   std::string scene = test::planeGltf();
   scene = test::replaced(scene, R"("scenes":[{"nodes":[0]}],"nodes":[)",
-                         R"("scenes":[{"nodes":[0,1,2,3]}],"cameras":[
+                         R"("scenes":[{"nodes":[0,1,2,3,4]}],"cameras":[
+      {"name":"Front view-2","type":"perspective","perspective":{"yfov":1,"znear":0.1}},
       {"name":"Front view","type":"perspective","perspective":{"yfov":1,"znear":0.1}},
       {"name":"far/off","type":"perspective","perspective":{"yfov":0.2,"znear":0.1}}],"nodes":[)");
-  scene = test::replaced(scene, R"("name":"plane"}],)", R"("name":"plane"},{"camera":0,"translation":[0,0,2]},
-      {"camera":1,"translation":[0,0,2]},{"camera":0,"translation":[0,0,4]}],)");
+  scene = test::replaced(scene, R"("name":"plane"}],)", R"("name":"plane"},{"camera":1,"translation":[0,0,2]},
+      {"camera":2,"translation":[0,0,2]},{"camera":1,"translation":[0,0,4]},
+      {"camera":0,"translation":[0,0,3]}],)");
   const std::string file = write("scene.gltf", scene).string(), report = (folder / "report.json").string();
   ASSERT_EQ(render(file, {"--camera", "all", "--json", report}).exitCode, 0);
   const auto json = nlohmann::json::parse(std::ifstream(report));
   const auto fileOf = [&](const std::string& name) { return (folder / ("out-" + name + ".png")).string(); };
-  EXPECT_EQ(json.at("pictures"),
-            (std::vector{fileOf("Front_view"), fileOf("far_off"), fileOf("Front_view-2")}));
+  EXPECT_EQ(json.at("pictures"), (std::vector{fileOf("Front_view"), fileOf("far_off"), fileOf("Front_view-2"),
+                                              fileOf("Front_view-2-2")}));
   EXPECT_FALSE(std::filesystem::exists(output));
   const auto pictureOf = [&](const std::string& path) { return test::valueOf(readImage(path)).bytes; };
   const auto first = pictureOf(fileOf("Front_view")), second = pictureOf(fileOf("far_off"));

@@ -86,12 +86,16 @@ bool transmits(const PBROptions& options) {
   return options.transmission.factor > 0.0f && canPass && !options.unlit;
 }
 
+bool hasSheen(const PBROptions& options) {
+  return options.sheen.color != glm::vec3(0.0f) && !options.unlit;
+}
+
 /// The layers that are compiled in.
 std::vector<const char*> layersOf(const PBROptions& options) {
-  std::vector<const char*> layers;
   if (options.unlit) return {"UNLIT"};
+  std::vector<const char*> layers;
   if (options.clearcoat.factor > 0.0f) layers.push_back("CLEARCOAT");
-  if (options.sheen.color != glm::vec3(0.0f)) layers.push_back("SHEEN");
+  if (hasSheen(options)) layers.push_back("SHEEN");
   if (options.anisotropy.strength > 0.0f) layers.push_back("ANISOTROPY");
   if (options.iridescence.factor > 0.0f) layers.push_back("IRIDESCENCE");
   if (transmits(options)) layers.push_back("TRANSMISSION");
@@ -117,7 +121,7 @@ PBRMaterial::PBRMaterial(const PBROptions& options) : options_(options) {
     define(kTextureDefines[unit]);
   }
   for (const char* layer : layersOf(options)) define(layer);
-  if (options.sheen.color != glm::vec3(0.0f))
+  if (hasSheen(options))
     setChunk(textureSlot(bindings::sheenTableUnit),
              std::make_shared<TextureChunk>(sheenTable(), TextureOptions{.filter = TextureFilter::Linear}));
   if (options.alphaMode == AlphaMode::Mask) define("ALPHA_MASK");
